@@ -1,0 +1,37 @@
+/// \file
+/// From voxels to the digital surface.
+#pragma once
+
+#include "libdsc/base/run.h"
+#include "libdsc/surface/adjacency.h"
+#include "libdsc/surface/surfel.h"
+#include "libdsc/voxels/binary_volume.h"
+
+#include <functional>
+
+namespace dsc {
+
+class DigitalSurface;
+
+/// What happens where the object touches the border of the volume.
+enum class Border {
+  closed,  ///< surfels there too: the world outside is empty
+  open,    ///< none: the surface has a boundary there
+};
+
+struct ExtractOptions {
+  Adjacency adjacency = Adjacency::interior;
+  Glue glue = Glue::pointel;
+  Border border = Border::closed;
+  /// Keeps only the surfels for which it is true; all where it is empty. Called from many threads.
+  std::function<bool(const Surfel&)> part;
+};
+
+/// The boundary of the voxel set, or the part of it that `options` keeps.
+///
+/// Every surfel appears exactly once. An empty set gives an empty surface.
+/// \throws LimitError where faces or vertices pass 32-bit ids.
+DigitalSurface extract_surface(const BinaryVolume& volume, const ExtractOptions& options = {},
+                               const Run& run = {});
+
+}  // namespace dsc

@@ -1,0 +1,29 @@
+/// \file
+/// The regular grid under every volume: voxel (i, j, k) is a cell centred on the lattice point
+/// origin + spacing * (i, j, k), i in [0, size[0]) and so on.
+#pragma once
+
+#include "libdsc/base/checked.h"
+#include "libdsc/base/types.h"
+
+namespace dsc {
+
+struct Grid {
+  Index3 size{0, 0, 0};     ///< voxels along x, y, z
+  Vec3 spacing{1., 1., 1.};  ///< edge lengths of a voxel, world units, all > 0
+  Vec3 origin{0., 0., 0.};   ///< world position of the centre of voxel (0, 0, 0)
+
+  /// \throws LimitError on overflow.
+  Index voxels() const {
+    return checked_product(checked_product(size[0], size[1], "voxels"), size[2], "voxels");
+  }
+  bool contains(Index x, Index y, Index z) const {
+    return x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
+  }
+  /// World position of the lattice point (x, y, z); half-integers give surfel centres and pointels.
+  Vec3 position(double x, double y, double z) const {
+    return origin + spacing.cwiseProduct(Vec3(x, y, z));
+  }
+};
+
+}  // namespace dsc
