@@ -12,8 +12,8 @@
 
 namespace dsc {
 
-int thread_count(const Run& run) {
-  if (run.threads > 0) return run.threads;
+int thread_count(const Context& context) {
+  if (context.threads > 0) return context.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
@@ -24,12 +24,12 @@ namespace {
 /// run, so which exception is reported does not depend on the schedule.
 class Guard {
  public:
-  Guard(const Run& run, const std::function<void(Index)>& task) : run_(run), task_(task) {}
+  Guard(const Context& context, const std::function<void(Index)>& task) : context_(context), task_(task) {}
 
   void operator()(Index chunk) {
     if (chunk > failed_.load(std::memory_order_relaxed)) return;
     try {
-      run_.check();
+      context_.check();
       task_(chunk);
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -45,7 +45,7 @@ class Guard {
   }
 
  private:
-  const Run& run_;
+  const Context& context_;
   const std::function<void(Index)>& task_;
   std::atomic<Index> failed_{std::numeric_limits<Index>::max()};
   std::mutex mutex_;
@@ -77,9 +77,9 @@ void dispatch(int threads, Index chunks, Guard& guard) {
 
 }  // namespace
 
-void run_chunks(const Run& run, Index chunks, const std::function<void(Index)>& task) {
-  Guard guard(run, task);
-  const int threads = thread_count(run);
+void run_chunks(const Context& context, Index chunks, const std::function<void(Index)>& task) {
+  Guard guard(context, task);
+  const int threads = thread_count(context);
   if (threads == 1 || chunks <= 1) {
     for (Index c = 0; c < chunks; ++c) guard(c);
   } else {

@@ -6,7 +6,7 @@
 /// std::thread for ThreadSanitizer builds (DSC_PARALLEL=TBB|STD).
 #pragma once
 
-#include "libdsc/base/run.h"
+#include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 
 #include <algorithm>
@@ -17,30 +17,30 @@
 namespace dsc {
 
 /// The number of threads a run gets: its own wish, or one per core.
-int thread_count(const Run& run);
+int thread_count(const Context& context);
 
 namespace detail {
 
 /// Calls task(c) for every c in [0, chunks), checking for cancellation before each.
 /// \throws what the task of the lowest-numbered failing chunk threw, or Cancelled.
-void run_chunks(const Run& run, Index chunks, const std::function<void(Index)>& task);
+void run_chunks(const Context& context, Index chunks, const std::function<void(Index)>& task);
 
 }  // namespace detail
 
 /// Calls body(first, last) on consecutive ranges of at most `grain` indices that cover [0, n).
 template <class Body>
-void parallel_for(const Run& run, Index n, Index grain, Body&& body) {
+void parallel_for(const Context& context, Index n, Index grain, Body&& body) {
   const Index chunks = (n + grain - 1) / grain;
-  detail::run_chunks(run, chunks,
+  detail::run_chunks(context, chunks,
                      [&](Index c) { body(c * grain, std::min(n, (c + 1) * grain)); });
 }
 
 /// Joins body(first, last) over the same ranges in ascending order: join(join(init, r0), r1) ….
 template <class T, class Body, class Join>
-T parallel_reduce(const Run& run, Index n, Index grain, T init, Body&& body, Join&& join) {
+T parallel_reduce(const Context& context, Index n, Index grain, T init, Body&& body, Join&& join) {
   const Index chunks = (n + grain - 1) / grain;
   std::vector<T> partial(static_cast<std::size_t>(chunks), init);
-  detail::run_chunks(run, chunks, [&](Index c) {
+  detail::run_chunks(context, chunks, [&](Index c) {
     partial[static_cast<std::size_t>(c)] = body(c * grain, std::min(n, (c + 1) * grain));
   });
   T result = std::move(init);

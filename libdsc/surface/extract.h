@@ -2,7 +2,7 @@
 /// From voxels to the digital surface.
 #pragma once
 
-#include "libdsc/base/run.h"
+#include "libdsc/base/context.h"
 #include "libdsc/surface/adjacency.h"
 #include "libdsc/surface/surfel.h"
 #include "libdsc/voxels/binary_volume.h"
@@ -32,6 +32,6 @@ struct ExtractOptions {
 /// Every surfel appears exactly once. An empty set gives an empty surface.
 /// \throws LimitError where faces or vertices pass 32-bit ids.
 DigitalSurface extract_surface(const BinaryVolume& volume, const ExtractOptions& options = {},
-                               const Run& run = {});
+                               const Context& context = {});
 
 }  // namespace dsc

@@ -11,7 +11,7 @@ namespace {
 TEST(Parallel, EveryIndexIsVisitedOnce) {
   for (const int threads : {1, 2, 4, 8}) {
     std::vector<std::atomic<int>> visits(1003);
-    parallel_for(Run{threads}, 1003, 10, [&](Index first, Index last) {
+    parallel_for(Context{threads}, 1003, 10, [&](Index first, Index last) {
       for (Index i = first; i < last; ++i) ++visits[static_cast<std::size_t>(i)];
     });
     for (const auto& v : visits) EXPECT_EQ(v.load(), 1);
@@ -21,7 +21,7 @@ TEST(Parallel, EveryIndexIsVisitedOnce) {
 TEST(Parallel, FloatingPointSumsDoNotDependOnThreads) {
   const auto sum = [](int threads) {
     return parallel_reduce(
-        Run{threads}, 100001, 37, 0.0,
+        Context{threads}, 100001, 37, 0.0,
         [](Index first, Index last) {
           double s = 0;
           for (Index i = first; i < last; ++i) s += 1.0 / static_cast<double>(3 * i + 1);
@@ -36,7 +36,7 @@ TEST(Parallel, FloatingPointSumsDoNotDependOnThreads) {
 TEST(Parallel, TheLowestFailingChunkIsReported) {
   for (const int threads : {1, 4}) {
     try {
-      parallel_for(Run{threads}, 100, 1, [](Index first, Index) {
+      parallel_for(Context{threads}, 100, 1, [](Index first, Index) {
         if (first == 17 || first == 60) throw std::runtime_error(std::to_string(first));
       });
       FAIL() << "nothing was thrown";
@@ -49,7 +49,7 @@ TEST(Parallel, TheLowestFailingChunkIsReported) {
 TEST(Parallel, CancellationStopsBetweenChunks) {
   Monitor monitor;
   std::atomic<int> chunks{0};
-  EXPECT_THROW(parallel_for(Run{1, &monitor}, 100, 1,
+  EXPECT_THROW(parallel_for(Context{1, &monitor}, 100, 1,
                             [&](Index first, Index) {
                               ++chunks;
                               if (first == 4) monitor.cancel();

@@ -1,7 +1,7 @@
 /// \file
 /// How a long computation is run: on how many threads, watched and cancelled by whom.
 ///
-/// Every long function takes a `const Run&` as its last argument. There is no global state, so two
+/// Every long function takes a `const Context&` as its last argument. There is no global state, so two
 /// computations may run side by side with different settings.
 #pragma once
 
@@ -36,7 +36,7 @@ class Monitor {
 };
 
 /// Settings of a run. Results never depend on `threads`.
-struct Run {
+struct Context {
   int threads = 0;             ///< 0: one per core
   Monitor* monitor = nullptr;  ///< not owned; may be null
 
