@@ -1,0 +1,51 @@
+#include "libdsc/solve/components.h"
+
+#include "libdsc/base/error.h"
+
+#include <string>
+
+namespace dsc {
+
+Components connected_components(const FlatMesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.vertices());
+  // Union-find; the root of a set is its lowest id.
+  std::vector<VertexId> parent(n);
+  for (std::size_t v = 0; v < n; ++v) parent[v] = static_cast<VertexId>(v);
+  const auto root = [&](VertexId v) {
+    auto i = static_cast<std::size_t>(v);
+    while (parent[i] != static_cast<VertexId>(i)) {
+      parent[i] = parent[static_cast<std::size_t>(parent[i])];  // halve the path
+      i = static_cast<std::size_t>(parent[i]);
+    }
+    return static_cast<VertexId>(i);
+  };
+  for (Index f = 0; f < mesh.faces(); ++f) {
+    const auto face = mesh.face(f);
+    for (const VertexId v : face) {
+      if (v < 0 || static_cast<std::size_t>(v) >= n) {
+        throw InputError("face " + std::to_string(f) + " has the corner " + std::to_string(v) +
+                         ", but there are " + std::to_string(n) + " vertices");
+      }
+    }
+    for (std::size_t i = 1; i < face.size(); ++i) {
+      const VertexId a = root(face[i - 1]);
+      const VertexId b = root(face[i]);
+      if (a < b) parent[static_cast<std::size_t>(b)] = a;
+      if (b < a) parent[static_cast<std::size_t>(a)] = b;
+    }
+  }
+  Components components;
+  components.of_vertex.resize(n);
+  for (std::size_t v = 0; v < n; ++v) {  // a root comes before the rest of its set
+    const VertexId r = root(static_cast<VertexId>(v));
+    if (static_cast<std::size_t>(r) == v) {
+      components.of_vertex[v] = static_cast<VertexId>(components.lowest.size());
+      components.lowest.push_back(r);
+    } else {
+      components.of_vertex[v] = components.of_vertex[static_cast<std::size_t>(r)];
+    }
+  }
+  return components;
+}
+
+}  // namespace dsc

@@ -1,0 +1,95 @@
+#include "libdsc/solve/spd_solver.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/solve/ldlt_solver.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace dsc {
+namespace {
+
+void check_length(const Eigen::VectorXd& v, Index n, const char* what) {
+  if (v.size() != n) {
+    throw UsageError("solve: the " + std::string(what) + " has " + std::to_string(v.size()) +
+                     " entries, the matrix " + std::to_string(n) + " rows");
+  }
+}
+
+}  // namespace
+
+SpdSolver::SpdSolver(SparseMatrix A, const SolverOptions& options)
+    : matrix_(std::move(A)), tolerance_(options.tolerance) {
+  if (matrix_.rows() != matrix_.cols()) {
+    throw UsageError("solver: the matrix is " + std::to_string(matrix_.rows()) + " x " +
+                     std::to_string(matrix_.cols()) + ", it must be square");
+  }
+  if (!(tolerance_ > 0 && tolerance_ < 1)) {
+    throw UsageError("solver: the tolerance must lie in (0, 1)");
+  }
+  matrix_.makeCompressed();
+  if (!Eigen::Map<const Eigen::ArrayXd>(matrix_.valuePtr(), matrix_.nonZeros()).allFinite()) {
+    throw SolverError("solver: the matrix has entries that are not finite");
+  }
+}
+
+Solution SpdSolver::solve(const Eigen::VectorXd& b) const {
+  check_length(b, size(), "right-hand side");
+  return finish(b, Eigen::VectorXd::Zero(size()));
+}
+
+Solution SpdSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const {
+  check_length(b, size(), "right-hand side");
+  check_length(guess, size(), "first guess");
+  if (!guess.allFinite()) throw SolverError("solve: the first guess is not finite");
+  return finish(b, guess);
+}
+
+Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
+  if (!b.allFinite()) throw SolverError("solve: the right-hand side is not finite");
+  Solution s;
+  const double scale = b.stableNorm();
+  if (scale == 0) {  // x = 0 exactly, whatever the guess
+    s.x = Eigen::VectorXd::Zero(size());
+    return s;
+  }
+  Eigen::VectorXd r = b;
+  if (!x.isZero(0)) r.noalias() -= matrix_ * x;
+  double residual = r.stableNorm() / scale;
+  // One solve, one correction where it is asked for. The negated test lets NaN through to the
+  // error.
+  for (int pass = 0; pass < 2 && !(residual <= tolerance_ && (pass > 0 || residual == 0)); ++pass) {
+    const Correction correction =
+        correct(r, std::min(0.5, tolerance_ / std::max(residual, 1e-300)));
+    s.iterations += correction.iterations + (pass > 0 && correction.iterations == 0 ? 1 : 0);
+    x += correction.c;
+    r = b;
+    r.noalias() -= matrix_ * x;
+    residual = r.stableNorm() / scale;
+  }
+  if (!(residual <= tolerance_)) {
+    std::ostringstream message;
+    message << "solve: the relative residual is " << residual << ", above the tolerance "
+            << tolerance_ << "; the matrix is not symmetric positive definite or is close to "
+            << "singular, or the tolerance is too small";
+    throw SolverError(message.str());
+  }
+  s.x = std::move(x);
+  s.relative_residual = residual;
+  return s;
+}
+
+std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options,
+                                           const Context& context) {
+  switch (options.method) {
+    case SolverMethod::ldlt:
+      return make_ldlt_solver(std::move(A), options, context);
+    case SolverMethod::multigrid:
+      break;
+  }
+  throw UsageError("solver: this method is not available");
+}
+
+}  // namespace dsc

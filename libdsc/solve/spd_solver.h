@@ -1,0 +1,83 @@
+/// \file
+/// Symmetric positive definite systems A x = b, behind one interface, each solve checked.
+///
+/// A solver is built ready for use: it owns its copy of A and its factorization or hierarchy, so
+/// nothing can go stale, and solves are const and may run from several threads at once. Every solve
+/// computes its true relative residual ||b - A x|| / ||b|| with the matrix as given (both
+/// triangles), corrects x once where it is above the tolerance, and throws where it still is. A
+/// matrix that is singular, indefinite or not finite never gives an answer.
+#pragma once
+
+#include "libdsc/base/context.h"
+#include "libdsc/base/types.h"
+
+#include <functional>
+#include <memory>
+
+namespace dsc {
+
+/// What a solve returns.
+struct Solution {
+  Eigen::VectorXd x;
+  double relative_residual = 0;  ///< ||b - A x|| / ||b||, computed from x; 0 where b = 0
+  Index iterations = 0;          ///< direct solvers: the number of corrections (0 or 1)
+};
+
+enum class SolverMethod {
+  ldlt,       ///< sparse L D Lᵀ with a nested dissection order: exact, reusable
+  multigrid,  ///< conjugate gradients preconditioned by multigrid: linear memory
+};
+
+struct SolverOptions {
+  SolverMethod method = SolverMethod::ldlt;
+  /// The relative residual that every solve must reach; in (0, 1).
+  double tolerance = 1e-9;
+};
+
+class SpdSolver {
+ public:
+  virtual ~SpdSolver() = default;
+  SpdSolver(const SpdSolver&) = delete;
+  SpdSolver& operator=(const SpdSolver&) = delete;
+
+  Index size() const { return matrix_.rows(); }
+  const SparseMatrix& matrix() const { return matrix_; }
+
+  /// x with A x = b. `b` has size() entries.
+  /// \throws UsageError on another length, SolverError where b is not finite or the residual stays
+  /// above the tolerance.
+  Solution solve(const Eigen::VectorXd& b) const;
+  /// The same from a first guess: iterative methods only solve for what it leaves.
+  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const;
+
+ protected:
+  /// \throws UsageError unless `A` is square and the tolerance in (0, 1); SolverError where an
+  /// entry is not finite.
+  SpdSolver(SparseMatrix A, const SolverOptions& options);
+
+  /// A correction c with A c = r, to this relative residual at least. Direct solvers ignore it.
+  struct Correction {
+    Eigen::VectorXd c;
+    Index iterations = 0;
+  };
+  virtual Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const = 0;
+
+ private:
+  Solution finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const;
+
+  SparseMatrix matrix_;
+  double tolerance_;
+};
+
+/// A solver of the method asked for. `A` is n x n, symmetric positive definite, both triangles
+/// stored. \throws UsageError where A is not square, SolverError where A is singular, indefinite or
+/// not finite, LimitError where the factor does not fit 32-bit indices or memory.
+std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options = {},
+                                           const Context& context = {});
+
+/// What algorithms take where they need a solver: make_spd_solver, or make_cholmod_solver of the
+/// target dsc::cholmod, or the caller's own.
+using SpdSolverFactory = std::function<std::unique_ptr<SpdSolver>(
+    SparseMatrix A, const SolverOptions& options, const Context& context)>;
+
+}  // namespace dsc
