@@ -1,8 +1,8 @@
 /// \file
 /// How a long computation is run: on how many threads, watched and cancelled by whom.
 ///
-/// Every long function takes a `const Context&` as its last argument. There is no global state, so two
-/// computations may run side by side with different settings.
+/// Every long function takes a `const Context&` as its last argument. There is no global state, so
+/// two computations may run side by side with different settings.
 #pragma once
 
 #include "libdsc/base/error.h"
@@ -26,7 +26,8 @@ class Monitor {
   /// `units` more are done; called from any thread.
   virtual void advance(Index /*units*/) noexcept {}
 
-  /// Asks the computation to stop at its next chunk. Safe from any thread and from a signal handler.
+  /// Asks the computation to stop at its next chunk. Safe from any thread and from a signal
+  /// handler.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
 

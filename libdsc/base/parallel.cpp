@@ -3,9 +3,12 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <system_error>
 #include <thread>
 
 #ifdef DSC_PARALLEL_TBB
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #endif
@@ -24,7 +27,8 @@ namespace {
 /// run, so which exception is reported does not depend on the schedule.
 class Guard {
  public:
-  Guard(const Context& context, const std::function<void(Index)>& task) : context_(context), task_(task) {}
+  Guard(const Context& context, const std::function<void(Index)>& task)
+      : context_(context), task_(task) {}
 
   void operator()(Index chunk) {
     if (chunk > failed_.load(std::memory_order_relaxed)) return;
@@ -55,6 +59,11 @@ class Guard {
 #ifdef DSC_PARALLEL_TBB
 
 void dispatch(int threads, Index chunks, Guard& guard) {
+  // More threads than cores only where they are asked for: tests do, to run chunks side by side.
+  std::optional<oneapi::tbb::global_control> more;
+  const auto kind = oneapi::tbb::global_control::max_allowed_parallelism;
+  const auto wish = static_cast<std::size_t>(threads);
+  if (wish > oneapi::tbb::global_control::active_value(kind)) more.emplace(kind, wish);
   oneapi::tbb::task_arena arena(threads);
   arena.execute([&] { oneapi::tbb::parallel_for(Index{0}, chunks, [&](Index c) { guard(c); }); });
 }
@@ -62,15 +71,22 @@ void dispatch(int threads, Index chunks, Guard& guard) {
 #else
 
 void dispatch(int threads, Index chunks, Guard& guard) {
+  // Relaxed: handing out chunks must not order them, or ThreadSanitizer would miss races between
+  // chunks that happened to run one after the other.
   std::atomic<Index> next{0};
+  const auto take = [&] { return next.fetch_add(1, std::memory_order_relaxed); };
   const auto work = [&] {
-    for (Index c = next.fetch_add(1); c < chunks; c = next.fetch_add(1)) guard(c);
+    for (Index c = take(); c < chunks; c = take()) guard(c);
   };
-  std::vector<std::thread> helpers;
-  const int extra = static_cast<int>(std::min<Index>(threads, chunks)) - 1;
-  for (int i = 0; i < extra; ++i) helpers.emplace_back(work);
+  const auto extra = static_cast<std::size_t>(std::min<Index>(threads, chunks) - 1);
+  std::vector<std::jthread> helpers;  // joined at the end of the scope, however it ends
+  helpers.reserve(extra);
+  try {
+    while (helpers.size() < extra) helpers.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system gives no more threads; those there are do all the chunks.
+  }
   work();
-  for (std::thread& helper : helpers) helper.join();
 }
 
 #endif

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# From a fresh clone to a result, with one command. On Debian 12 it installs what is missing; git
+# and ca-certificates, for the clone, are all that must be there before.
+#
+#   ./cmake/bootstrap.sh demo [FILE]   builds the program and shows its main job, on the voxels of
+#                                      FILE (.vol, .longvol, .npy) or on a built-in shape; the
+#                                      results are in out/
+#   ./cmake/bootstrap.sh test          builds everything, runs every test
+set -euo pipefail
+
+usage() {
+  sed -n '5,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  exit 2
+}
+
+say() { printf '== %s\n' "$*"; }
+
+# Library packages, by their names in Debian. Tools are looked for in PATH first.
+library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev
+  libtbb-dev libcli11-dev nlohmann-json3-dev)
+test_packages=(libgtest-dev)
+
+# Prints the packages of its arguments and of the tools that this system does not have.
+missing_packages() {
+  command -v cc >/dev/null || echo gcc
+  command -v c++ >/dev/null || echo g++
+  command -v cmake >/dev/null || echo cmake
+  command -v ninja >/dev/null || echo ninja-build
+  local package
+  for package in "$@"; do
+    [[ $(dpkg-query --show --showformat '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] ||
+      echo "$package"
+  done
+}
+
+install_missing() {
+  if ! command -v apt-get >/dev/null; then
+    say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
+    printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'oneTBB' 'CLI11' \
+      'nlohmann-json'
+    [[ $mode == demo ]] || printf '     %s\n' 'GoogleTest'
+    say "Going on with what is there."
+    return
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  say "Installing: ${missing[*]}"
+  local as_root=()
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      say "Neither root nor sudo: let root run" >&2
+      echo "apt-get install --no-install-recommends ${missing[*]}" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq
+    -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
+  "${apt[@]}" update
+  "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" </dev/null >/dev/null
+}
+
+# One compiler a core, as far as memory goes: Eigen's templates take about 1 GB each.
+build_jobs() {
+  local cores memory
+  cores=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+  memory=$(awk '/^MemAvailable:/ {print int($2 / 1000000)}' /proc/meminfo 2>/dev/null || true)
+  ((${memory:-$cores} >= cores)) || cores=$((memory > 1 ? memory : 1))
+  echo "$cores"
+}
+
+# configure_and_build <preset> [<cmake option>…]
+configure_and_build() {
+  local preset=$1
+  shift
+  say "Configuring build/$preset"
+  cmake --preset "$preset" "$@" --log-level=WARNING
+  say "Building"
+  cmake --build --preset "$preset" --parallel "$(build_jobs)"
+}
+
+(($# >= 1)) || usage
+mode=$1
+shift
+case $mode in
+  demo)
+    (($# <= 1)) || usage
+    input=
+    if (($# == 1)); then
+      [[ -r $1 && -f $1 ]] || { echo "bootstrap.sh: $1: no such file" >&2; exit 2; }
+      input=$(realpath -- "$1")
+    fi
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
+    exec ./cmake/demo.sh build/release/bin/dsc ${input:+"$input"}
+    ;;
+  test)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}" "${test_packages[@]}"
+    configure_and_build dev
+    say "Testing"
+    exec ctest --preset dev --no-tests=error --output-on-failure -j2
+    ;;
+  *) usage ;;
+esac
