@@ -1,0 +1,67 @@
+# cmake -DROOT=<folder of the layers> -P check_layers.cmake
+#
+# Reads the #include lines of every source file under ROOT and fails, naming the file and the header, on
+# each that the architecture forbids.
+cmake_minimum_required(VERSION 3.25)
+
+# A layer uses itself and what comes before it here.
+set(layers base voxels surface normals calculus solve algorithms truth io cli)
+
+# Pairs: headers, and the only files (as <layer>/<file>) that may include them.
+set(restricted
+  "^OpenMesh/"                                    "^(surface/|io/|calculus/on_mesh\\.h$)"
+  "^CGAL/"                                        "^truth/"
+  "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|unistd\\.h|sys/.*|zlib\\.h)$"  "^(io|cli)/"
+  "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
+  "^thread$"                                      "^(base|cli)/"
+  "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"
+  # What dsc::dsc links privately stays out of the headers that are installed.
+  "^(muParser|metis\\.h|fmt/|nlohmann/|CLI/|zlib\\.h|tbb/|oneapi/)"  "(\\.cpp$|^cli/)")
+
+set(problems "")
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.h ${ROOT}/*.hpp ${ROOT}/*.cpp)
+if(NOT files)
+  message(FATAL_ERROR "no source files under ${ROOT}")
+endif()
+foreach(file IN LISTS files)
+  string(REGEX REPLACE "/.*" "" layer "${file}")
+  list(FIND layers "${layer}" rank)
+  if(rank EQUAL -1)
+    list(APPEND problems "${file}: ${layer} is not a layer")
+    continue()
+  endif()
+  file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "include[ \t]*([<\"])([^>\"]+)[>\"]")
+      list(APPEND problems "${file}: an include that this check cannot read: ${line}")
+      continue()
+    endif()
+    set(quote "${CMAKE_MATCH_1}")
+    set(header "${CMAKE_MATCH_2}")
+    if(header MATCHES "^libdsc/([a-z]+)/")
+      list(FIND layers "${CMAKE_MATCH_1}" used)
+      if(used EQUAL -1 OR used GREATER rank)
+        list(APPEND problems "${file}: includes ${header}, a layer after its own")
+      endif()
+    elseif(quote STREQUAL "\"")
+      list(APPEND problems "${file}: includes ${header} by another path than libdsc/<layer>/")
+    endif()
+    list(LENGTH restricted length)
+    math(EXPR last "${length} - 1")
+    foreach(i RANGE 0 ${last} 2)
+      math(EXPR j "${i} + 1")
+      list(GET restricted ${i} pattern)
+      list(GET restricted ${j} allowed)
+      if(header MATCHES "${pattern}" AND NOT file MATCHES "${allowed}")
+        list(APPEND problems "${file}: includes ${header}, which only ${allowed} may")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+list(LENGTH files count)
+if(problems)
+  list(JOIN problems "\n  " text)
+  message(FATAL_ERROR "against the layers:\n  ${text}")
+endif()
+message(STATUS "${count} files keep to the layers")

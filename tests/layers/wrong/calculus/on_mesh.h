@@ -1,0 +1,2 @@
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <muParser.h>  // wrong

@@ -1,0 +1,4 @@
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <cstdio>
+#include <zlib.h>
+#include "libdsc/cli/options.h"  // wrong

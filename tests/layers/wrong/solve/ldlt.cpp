@@ -1,0 +1,1 @@
+#include <cholmod.h>  // wrong
