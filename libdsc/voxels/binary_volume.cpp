@@ -16,8 +16,7 @@ BinaryVolume::BinaryVolume(const Grid& grid) : grid_(grid) {
     if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis]) ||
         !std::isfinite(grid.origin[axis])) {
       throw InputError("volume: the spacing must be positive and finite, the origin finite; axis " +
-                       std::to_string(axis) + " has spacing " +
-                       std::to_string(grid.spacing[axis]));
+                       std::to_string(axis) + " has spacing " + std::to_string(grid.spacing[axis]));
     }
   }
   (void)grid.voxels();

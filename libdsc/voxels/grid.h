@@ -9,7 +9,7 @@
 namespace dsc {
 
 struct Grid {
-  Index3 size{0, 0, 0};     ///< voxels along x, y, z
+  Index3 size{0, 0, 0};      ///< voxels along x, y, z
   Vec3 spacing{1., 1., 1.};  ///< edge lengths of a voxel, world units, all > 0
   Vec3 origin{0., 0., 0.};   ///< world position of the centre of voxel (0, 0, 0)
 
