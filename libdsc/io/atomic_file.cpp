@@ -1,0 +1,151 @@
+#include "libdsc/io/atomic_file.h"
+
+#include "libdsc/base/error.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace dsc {
+namespace {
+
+constexpr std::size_t kBuffer = std::size_t{1} << 20;
+
+/// Names of live temporaries, in static memory so that a signal handler can read them.
+struct Slot {
+  enum State : int { kFree, kClaimed, kLive };
+  std::atomic<int> state{kFree};
+  char name[PATH_MAX];
+};
+static_assert(std::atomic<int>::is_always_lock_free);
+constexpr int kSlots = 64;
+Slot slots[kSlots];
+std::atomic<unsigned> counter{0};
+
+/// The slot that now holds `name`, or -1 where none is free.
+int register_temporary(const std::string& name) {
+  if (name.size() >= sizeof(Slot::name)) return -1;
+  for (int i = 0; i < kSlots; ++i) {
+    int expected = Slot::kFree;
+    if (slots[i].state.compare_exchange_strong(expected, Slot::kClaimed)) {
+      std::memcpy(slots[i].name, name.c_str(), name.size() + 1);
+      slots[i].state.store(Slot::kLive);
+      return i;
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
+void AtomicFile::remove_all_temporaries() noexcept {
+  for (Slot& slot : slots) {
+    if (slot.state.load() == Slot::kLive) (void)::unlink(slot.name);
+  }
+}
+
+void AtomicFile::fail(const char* action, int error) const {
+  throw OutputError("cannot " + std::string(action) + " '" + path_ +
+                    "': " + std::system_category().message(error));
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+  namespace fs = std::filesystem;
+  if (path.empty()) fail("write", ENOENT);
+  struct stat info {};
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (!exists && errno != ENOENT) fail("write", errno);
+  if (exists && S_ISDIR(info.st_mode)) fail("write", EISDIR);
+  buffer_.reserve(kBuffer);
+  if (exists && !S_ISREG(info.st_mode)) {
+    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail("open", errno);
+    return;
+  }
+  if (exists && ::access(path.c_str(), W_OK) != 0) fail("overwrite", errno);
+  std::error_code error;
+  target_ = fs::weakly_canonical(fs::absolute(path, error), error).string();
+  if (error) fail("write", error.value());
+  for (int attempt = 0; file_ < 0; ++attempt) {
+    temporary_ = target_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    slot_ = register_temporary(temporary_);  // before it exists: a signal may come at any time
+    if (slot_ < 0) fail("register a temporary for", EMFILE);
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) break;
+    const int reason = errno;
+    slots[slot_].state.store(Slot::kFree);
+    slot_ = -1;
+    if (reason != EEXIST || attempt > 100) fail("create a temporary beside", reason);
+  }
+  if (exists) (void)::fchmod(file_, info.st_mode & 07777);
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() noexcept {
+  if (file_ >= 0) (void)::close(file_);
+  file_ = -1;
+  if (slot_ >= 0) {
+    (void)::unlink(temporary_.c_str());
+    slots[slot_].state.store(Slot::kFree);
+    slot_ = -1;
+  }
+}
+
+void AtomicFile::write_through(const char* data, std::size_t bytes) {
+  while (bytes > 0) {
+    const ssize_t written = ::write(file_, data, bytes);
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail("write", errno);
+    }
+    data += written;
+    bytes -= static_cast<std::size_t>(written);
+  }
+}
+
+void AtomicFile::flush() {
+  write_through(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void AtomicFile::write(const void* data, std::size_t bytes) {
+  if (file_ < 0) fail("write after the end of", EBADF);
+  const char* from = static_cast<const char*>(data);
+  if (buffer_.size() + bytes > kBuffer) flush();
+  if (bytes >= kBuffer) {
+    write_through(from, bytes);
+  } else {
+    buffer_.insert(buffer_.end(), from, from + bytes);
+  }
+}
+
+void AtomicFile::commit() {
+  if (file_ < 0) fail("commit twice", EBADF);
+  flush();
+  // Pipes and devices cannot be synchronised; regular files must be.
+  if (::fsync(file_) != 0 && !temporary_.empty()) fail("flush to the disk", errno);
+  const int file = file_;
+  file_ = -1;
+  if (::close(file) != 0) fail("close", errno);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("rename the temporary to", errno);
+  slots[slot_].state.store(Slot::kFree);
+  slot_ = -1;
+  // The new name itself: best effort, the data is safe already.
+  const std::string folder = std::filesystem::path(target_).parent_path().string();
+  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory >= 0) {
+    (void)::fsync(directory);
+    (void)::close(directory);
+  }
+}
+
+}  // namespace dsc

@@ -1,0 +1,54 @@
+/// \file
+/// A result file that appears whole or not at all.
+///
+/// Bytes go to a temporary beside the target; commit() flushes it to the disk and renames it over
+/// the target. Without a commit the target stays as it was and the temporary is removed. A target
+/// that is no regular file (/dev/stdout, a pipe) is written directly. A symbolic link is followed;
+/// an existing file keeps its permissions and is refused where it is not writable.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dsc {
+
+class AtomicFile {
+ public:
+  /// Opens the temporary. \throws OutputError naming the file and the system's reason.
+  explicit AtomicFile(const std::string& path);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  /// Removes the temporary where commit() did not succeed.
+  ~AtomicFile();
+
+  /// Appends, through a buffer. \throws OutputError (a full disk, a closed pipe).
+  void write(const void* data, std::size_t bytes);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+
+  /// Flush, fsync, close, rename. Nothing may be written afterwards. \throws OutputError; the
+  /// target is then unchanged.
+  void commit();
+
+  const std::string& path() const { return path_; }
+
+  /// Unlinks every live temporary of the process, for an exit from a signal handler: it only calls
+  /// unlink() on names stored beforehand. Files that are still open cannot be committed afterwards.
+  static void remove_all_temporaries() noexcept;
+
+ private:
+  void flush();
+  void write_through(const char* data, std::size_t bytes);
+  [[noreturn]] void fail(const char* action, int error) const;
+  void discard() noexcept;
+
+  std::string path_;       ///< as the caller gave it, for messages
+  std::string target_;     ///< absolute, links resolved
+  std::string temporary_;  ///< empty where the target is written directly
+  int slot_ = -1;          ///< in the registry of live temporaries
+  int file_ = -1;
+  std::vector<char> buffer_;
+};
+
+}  // namespace dsc
