@@ -1,0 +1,9 @@
+/// \file
+/// (internal) Tables of the vector path of BallScanner.
+#pragma once
+
+namespace dsc {
+
+class BallMasks {};
+
+}  // namespace dsc

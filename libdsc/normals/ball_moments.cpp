@@ -1,0 +1,122 @@
+#include "libdsc/normals/ball_moments.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/normals/ball_masks.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace dsc {
+namespace {
+
+__extension__ using Wide = __int128;
+
+struct RowSums {
+  Index count = 0, first = 0, second = 0;
+};
+
+/// Adds the run of `n` voxels at dx = start, start + 2, ….
+void add_run(RowSums& sums, Index start, Index n) {
+  sums.count += n;
+  sums.first += n * (start + n - 1);
+  sums.second += n * start * start + 2 * start * n * (n - 1) + 2 * (n - 1) * n * (2 * n - 1) / 3;
+}
+
+/// The voxels x in [low, high] of row (y, z), all within the grid, relative to doubled cx.
+RowSums scan_row(const BinaryVolume& volume, Index low, Index high, Index y, Index z, Index cx) {
+  RowSums sums;
+  const Index first_word = (low + 1) >> 6;
+  const Index last_word = (high + 1) >> 6;
+  for (Index w = first_word; w <= last_word; ++w) {
+    BinaryVolume::Word bits = volume.word(w, y, z);
+    if (w == first_word) bits &= ~BinaryVolume::Word{0} << ((low + 1) & 63);
+    if (w == last_word) bits &= ~BinaryVolume::Word{0} >> (63 - ((high + 1) & 63));
+    while (bits != 0) {
+      const int start = std::countr_zero(bits);
+      const int length = std::countr_one(bits >> start);
+      add_run(sums, 2 * (64 * w + start - 1) - cx, length);
+      if (start + length == 64) break;
+      bits &= ~BinaryVolume::Word{0} << (start + length);
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+Mat3 covariance(const BallMoments& m, const Vec3& spacing) {
+  if (m.count == 0) return Mat3::Zero();
+  const auto entry = [&](std::size_t second, std::size_t a, std::size_t b) {
+    const Wide centred = Wide{m.count} * m.second[second] - Wide{m.first[a]} * m.first[b];
+    return static_cast<double>(centred) / static_cast<double>(m.count);
+  };
+  Mat3 v;
+  v << entry(0, 0, 0), entry(3, 0, 1), entry(4, 0, 2),  //
+      0, entry(1, 1, 1), entry(5, 1, 2),                //
+      0, 0, entry(2, 2, 2);
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a; b < 3; ++b) {
+      v(a, b) *= 0.25 * spacing.prod() * spacing[a] * spacing[b];
+      v(b, a) = v(a, b);
+    }
+  }
+  return v;
+}
+
+BallScanner::BallScanner(const BinaryVolume& volume, double radius, Centres centres)
+    : volume_(volume), ball_(radius, volume.grid().spacing) {
+  if (centres == Centres::voxels) {
+    rows_.emplace_back(ball_, Index3{0, 0, 0});
+  } else {
+    rows_.emplace_back(ball_, Index3{1, 0, 0});
+    rows_.emplace_back(ball_, Index3{0, 1, 0});
+    rows_.emplace_back(ball_, Index3{0, 0, 1});
+  }
+}
+
+BallScanner::~BallScanner() = default;
+
+std::size_t BallScanner::kind(const Index3& centre) const {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Index3& parity = rows_[k].parity();
+    if ((centre[0] & 1) == parity[0] && (centre[1] & 1) == parity[1] &&
+        (centre[2] & 1) == parity[2]) {
+      return k;
+    }
+  }
+  throw UsageError("ball: the scanner was not built for centres of this kind (voxel or surfel)");
+}
+
+BallMoments BallScanner::operator()(const Index3& centre) const { return plain(centre); }
+
+BallMoments BallScanner::plain(const Index3& centre) const {
+  const BallRows& rows = rows_[kind(centre)];
+  const Index3& size = volume_.grid().size;
+  BallMoments m;
+  for (Index dz = -rows.reach(2); dz <= rows.reach(2); dz += 2) {
+    const Index z = (centre[2] + dz) >> 1;
+    if (z < 0 || z >= size[2]) continue;
+    for (Index dy = -rows.reach(1); dy <= rows.reach(1); dy += 2) {
+      const Index y = (centre[1] + dy) >> 1;
+      const Index extent = rows.extent(dy, dz);
+      if (extent < 0 || y < 0 || y >= size[1]) continue;
+      const Index low = std::max<Index>((centre[0] - extent) >> 1, 0);
+      const Index high = std::min((centre[0] + extent) >> 1, size[0] - 1);
+      if (low > high) continue;
+      const RowSums row = scan_row(volume_, low, high, y, z, centre[0]);
+      m.count += row.count;
+      m.first[0] += row.first;
+      m.first[1] += dy * row.count;
+      m.first[2] += dz * row.count;
+      m.second[0] += row.second;
+      m.second[1] += dy * dy * row.count;
+      m.second[2] += dz * dz * row.count;
+      m.second[3] += dy * row.first;
+      m.second[4] += dz * row.first;
+      m.second[5] += dy * dz * row.count;
+    }
+  }
+  return m;
+}
+
+}  // namespace dsc
