@@ -1,0 +1,202 @@
+#include "libdsc/calculus/laplacian_pattern.h"
+
+#include "libdsc/base/checked.h"
+#include "libdsc/base/parallel.h"
+#include "libdsc/calculus/assembly.h"
+#include "libdsc/calculus/mesh_checks.h"
+#include "libdsc/calculus/vertex_blocks.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dsc {
+namespace {
+
+constexpr Index kGrain = 4096;
+
+/// A small sorted set of vertices, kept in place from column to column.
+class Column {
+ public:
+  void clear() { ids_.clear(); }
+  void insert(VertexId v) {
+    std::size_t i = ids_.size();
+    while (i > 0 && ids_[i - 1] > v) --i;
+    if (i > 0 && ids_[i - 1] == v) return;
+    ids_.insert(ids_.begin() + static_cast<std::ptrdiff_t>(i), v);
+  }
+  /// For columns too long to insert into one by one.
+  void append(VertexId v) { ids_.push_back(v); }
+  void sort_unique() {
+    std::sort(ids_.begin(), ids_.end());
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+  }
+  Index position(VertexId v) const {
+    if (ids_.size() > 32) return std::lower_bound(ids_.begin(), ids_.end(), v) - ids_.begin();
+    Index less = 0;
+    for (const VertexId id : ids_) less += id < v ? 1 : 0;
+    return less;
+  }
+  const std::vector<VertexId>& ids() const { return ids_; }
+
+ private:
+  std::vector<VertexId> ids_;
+};
+
+}  // namespace
+
+LaplacianPattern::LaplacianPattern(const FlatMesh& mesh, const Context& context)
+    : faces_(mesh.faces()), corners_(mesh.corner_count()), digital_(mesh.is_digital()) {
+  check_mesh(mesh, CalculusOptions());
+  context.begin("laplacian pattern", mesh.vertices());
+  if (!mesh.offsets.empty()) {
+    pairs_.resize(static_cast<std::size_t>(faces_) + 1);
+    for (Index f = 0; f < faces_; ++f) {
+      const Index n = mesh.first_corner(f + 1) - mesh.first_corner(f);
+      pairs_[static_cast<std::size_t>(f) + 1] =
+          pairs_[static_cast<std::size_t>(f)] + checked_product(n, n, "pairs of corners of a face");
+    }
+  }
+  find_incident(mesh, context);
+  if (digital_) {
+    find_columns(mesh, surfel_slots_, context);
+  } else {
+    find_columns(mesh, polygon_slots_, context);
+  }
+}
+
+/// A counting sort of the corners by vertex.
+void LaplacianPattern::find_incident(const FlatMesh& mesh, const Context& context) {
+  const VertexBlocks blocks(mesh, context);
+  const auto V = static_cast<std::size_t>(mesh.vertices());
+  incident_begin_.assign(V + 1, 0);
+  blocks.run(context, [&](VertexId v0, VertexId v1, Index f0, Index f1) {
+    for (Index c = mesh.first_corner(f0); c < mesh.first_corner(f1); ++c) {
+      const VertexId v = mesh.corners[static_cast<std::size_t>(c)];
+      if (v >= v0 && v < v1) ++incident_begin_[static_cast<std::size_t>(v)];
+    }
+  });
+  // Begins, that the placing below moves to the ends, which are the next vertex's begins.
+  std::int32_t sum = 0;
+  for (std::size_t v = 0; v <= V; ++v) {
+    const std::int32_t count = incident_begin_[v];
+    incident_begin_[v] = sum;
+    sum += count;
+  }
+  incident_.resize(mesh.corners.size());
+  if (!mesh.offsets.empty()) incident_face_.resize(mesh.corners.size());
+  blocks.run(context, [&](VertexId v0, VertexId v1, Index f0, Index f1) {
+    for (Index f = f0; f < f1; ++f) {
+      const Index last = mesh.first_corner(f + 1);
+      for (Index c = mesh.first_corner(f); c < last; ++c) {
+        const VertexId v = mesh.corners[static_cast<std::size_t>(c)];
+        if (v < v0 || v >= v1) continue;
+        const auto at = static_cast<std::size_t>(incident_begin_[static_cast<std::size_t>(v)]++);
+        incident_[at] = static_cast<std::int32_t>(c);
+        if (!incident_face_.empty()) incident_face_[at] = static_cast<std::int32_t>(f);
+      }
+    }
+  });
+  for (std::size_t v = V; v > 0; --v) incident_begin_[v] = incident_begin_[v - 1];
+  incident_begin_[0] = 0;
+}
+
+template <class Slot>
+void LaplacianPattern::find_columns(const FlatMesh& mesh, std::vector<Slot>& slots,
+                                    const Context& context) {
+  const Index V = mesh.vertices();
+  slots.resize(static_cast<std::size_t>(pairs_before(faces_)));
+  std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kGrain - 1) / kGrain));
+  outer_.assign(static_cast<std::size_t>(V) + 1, 0);
+
+  parallel_for(context, V, kGrain, [&](Index first, Index last) {
+    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kGrain)];
+    part.reserve(static_cast<std::size_t>(10 * (last - first)));
+    Column column;
+    for (Index v = first; v < last; ++v) {
+      const std::int32_t begin = incident_begin_[static_cast<std::size_t>(v)];
+      const std::int32_t end = incident_begin_[static_cast<std::size_t>(v) + 1];
+      column.clear();
+      if (digital_) {
+        for (std::int32_t k = begin; k < end; ++k) {
+          for (const VertexId id : mesh.face(place(mesh, k).face)) column.insert(id);
+        }
+      } else {
+        for (std::int32_t k = begin; k < end; ++k) {
+          for (const VertexId id : mesh.face(place(mesh, k).face)) column.append(id);
+        }
+        column.sort_unique();
+      }
+      if (static_cast<Index>(column.ids().size()) > std::numeric_limits<Slot>::max()) {
+        throw InputError("vertex " + std::to_string(v) + " has " +
+                         std::to_string(column.ids().size()) +
+                         " neighbours, more than a digital surface can have at a pointel");
+      }
+      for (std::int32_t k = begin; k < end; ++k) {
+        const Place at = place(mesh, k);
+        const auto ids = mesh.face(at.face);
+        Slot* row =
+            slots.data() + pairs_before(at.face) + at.corner * static_cast<Index>(ids.size());
+        for (const VertexId id : ids) *row++ = static_cast<Slot>(column.position(id));
+      }
+      part.insert(part.end(), column.ids().begin(), column.ids().end());
+      outer_[static_cast<std::size_t>(v) + 1] = static_cast<std::int32_t>(column.ids().size());
+    }
+    context.advance(last - first);
+  });
+
+  Index nonzeros = 0;
+  for (const auto& part : parts) nonzeros += static_cast<Index>(part.size());
+  checked_id(nonzeros, "nonzeros of the Laplacian");
+  for (Index v = 0; v < V; ++v) {
+    outer_[static_cast<std::size_t>(v) + 1] += outer_[static_cast<std::size_t>(v)];
+  }
+  inner_.resize(static_cast<std::size_t>(nonzeros));
+  parallel_for(context, V, kGrain, [&](Index first, Index) {
+    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kGrain)];
+    std::copy(part.begin(), part.end(), inner_.begin() + outer_[static_cast<std::size_t>(first)]);
+    std::vector<VertexId>().swap(part);
+  });
+}
+
+LaplaceSystem LaplacianPattern::assemble(const FlatMesh& mesh, const CalculusOptions& options,
+                                         const Context& context) const {
+  LaplaceSystem system;
+  system.L.resize(vertices(), vertices());
+  system.L.resizeNonZeros(nonzeros());
+  std::copy(outer_.begin(), outer_.end(), system.L.outerIndexPtr());
+  std::int32_t* inner = system.L.innerIndexPtr();
+  parallel_for(context, nonzeros(), 16 * kGrain, [&](Index first, Index last) {
+    std::copy(inner_.begin() + first, inner_.begin() + last, inner + first);
+  });
+  system.mass.resize(vertices());
+  refill(system, mesh, options, context);
+  return system;
+}
+
+void LaplacianPattern::refill(LaplaceSystem& system, const FlatMesh& mesh,
+                              const CalculusOptions& options, const Context& context) const {
+  options.check();
+  check_mesh(mesh, options);
+  if (mesh.vertices() != vertices() || mesh.faces() != faces_ || mesh.corner_count() != corners_ ||
+      mesh.is_digital() != digital_) {
+    throw UsageError("the Laplacian's pattern was built for another mesh; build it for this one");
+  }
+  if (system.L.rows() != vertices() || system.L.nonZeros() != nonzeros() ||
+      system.mass.size() != vertices()) {
+    throw UsageError("the system to refill is not one of this pattern; take it from assemble()");
+  }
+  context.begin("laplacian", vertices());
+  double* values = system.L.valuePtr();
+  double* mass = system.mass.data();
+  system.clamped_faces = digital_ ? fill_surfels(mesh, options, values, mass, context)
+                                  : fill_polygons(mesh, options, values, mass, context);
+}
+
+LaplaceSystem assemble_laplacian(const FlatMesh& mesh, const CalculusOptions& options,
+                                 const Context& context) {
+  options.check();
+  check_mesh(mesh, options);
+  return LaplacianPattern(mesh, context).assemble(mesh, options, context);
+}
+
+}  // namespace dsc
