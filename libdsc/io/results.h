@@ -1,0 +1,73 @@
+/// \file
+/// Results in files: a polygon mesh and the fields on its vertices and faces.
+///
+/// | ending | what is written |
+/// | --- | --- |
+/// | .ply | binary little-endian; doubles; corner lists of int32; a vector is three named
+/// properties | | .vtp | ParaView's XML PolyData; doubles, appended as base64; a vector is one
+/// array of 3 components | | .csv | a header line, then x, y, z and the fields, a row per vertex or
+/// per face (below) |
+///
+/// Vertices are vertex ids: the junction vertices of a digital surface stay shared, however its
+/// halfedge mesh had to split them. Every double is written in full: .csv uses the shortest form
+/// that reads back to the same bits. An infinite value (a distance that no source reaches) is IEEE
+/// infinity in .ply and .vtp and `inf` in .csv; NaN is refused.
+///
+/// A .csv file holds one kind of row. It is that of the first field: per vertex with the vertex's
+/// position, or per face with the mean of the face's corners. Fields of the other kind are left
+/// out, and write_result() returns their names. Without any field the rows are the vertices.
+///
+/// Files are written beside their target, flushed and renamed: a failure leaves what was there.
+#pragma once
+
+#include "libdsc/base/context.h"
+#include "libdsc/surface/flat_mesh.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dsc {
+
+/// What a field has one value for.
+enum class FieldOn { vertex, face };
+
+/// A named scalar or vector per vertex or per face. It does not own its values.
+struct Field {
+  std::string name;                ///< of the array in .vtp: `distance`, `normal`, `gradient`
+  std::vector<std::string> parts;  ///< of the properties and columns: {distance}, {nx, ny, nz}
+  FieldOn on = FieldOn::vertex;
+  std::span<const double> values;  ///< one after another, parts.size() each
+};
+
+/// A scalar field; `name` is also its one part.
+Field scalar_field(std::string name, FieldOn on, std::span<const double> values);
+/// A field of 3-vectors, with the names of its parts.
+Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on,
+                   const Eigen::Ref<const Eigen::Matrix3Xd>& values);
+
+/// What a file holds; a view, so that what it looks at must outlive it. Of the mesh, positions,
+/// corners and offsets are written; its normals only where a field names them.
+struct Result {
+  FlatMesh mesh;
+  std::vector<Field> fields;
+};
+
+/// The endings that write_result() knows, for messages and help: ".ply, .vtp, .csv".
+std::string result_endings();
+
+/// Refuses a path that write_result() could not serve, before anything is computed.
+/// \throws UsageError where the ending is unknown, naming the ones known; OutputError where the
+/// folder does not exist or the path is a folder.
+void check_result_path(const std::string& path);
+
+/// Writes `result` in the form that the ending of `path` names (upper or lower case).
+/// \return the names of the fields that the form could not hold (.csv only; see above).
+/// \throws UsageError as check_result_path(), or where a field has another number of values than
+/// the mesh has vertices or faces, or a name that no format takes (letters, digits and
+/// underscores); InputError where a field or a position is NaN, naming the first; OutputError where
+/// the file cannot be written; Cancelled. In every case the file at `path` is as it was before.
+std::vector<std::string> write_result(const std::string& path, const Result& result,
+                                      const Context& context = {});
+
+}  // namespace dsc
