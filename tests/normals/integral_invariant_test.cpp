@@ -53,7 +53,7 @@ TEST(IntegralInvariant, ConvergesOnTheSphere) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const double h : {0.2, 0.14, 0.1, 0.0987, 0.083, 0.07, 0.05, 0.0441, 0.035, 0.025}) {
       const SphereError error = sphere_error(h, centre);
-      EXPECT_LT(error.mean, 7. * h) << h;  // degrees
+      EXPECT_LT(error.mean, 8. * h) << h;  // degrees
       EXPECT_LT(error.max, 18. * h) << h;
       const double x = std::log(h), y = std::log(error.mean);
       n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
