@@ -14,6 +14,7 @@
 #include "libdsc/surface/surface_mesh.h"
 #include "libdsc/voxels/grid.h"
 
+#include <memory>
 #include <span>
 
 namespace dsc {
@@ -32,9 +33,16 @@ struct SurfaceCounts {
 
 class DigitalSurface {
  public:
+  DigitalSurface();
+  DigitalSurface(const DigitalSurface& other);
+  DigitalSurface(DigitalSurface&&) noexcept = default;
+  DigitalSurface& operator=(const DigitalSurface& other);
+  DigitalSurface& operator=(DigitalSurface&&) noexcept = default;
+  ~DigitalSurface() = default;
+
   /// The mesh; its properties carry normals and results. Do not change its connectivity.
-  SurfaceMesh& mesh() { return mesh_; }
-  const SurfaceMesh& mesh() const { return mesh_; }
+  SurfaceMesh& mesh() { return *mesh_; }
+  const SurfaceMesh& mesh() const { return *mesh_; }
 
   const Grid& grid() const { return grid_; }
   Adjacency adjacency() const { return adjacency_; }
@@ -51,11 +59,11 @@ class DigitalSurface {
 
   /// World position of vertex id v: its pointel.
   Vec3 position(VertexId v) const {
-    const auto& p = mesh_.points()[v];
+    const auto& p = mesh_->points()[v];
     return {p[0], p[1], p[2]};
   }
   /// All of them.
-  Vec3View positions() const { return {mesh_.points()->data(), vertex_count_}; }
+  Vec3View positions() const { return {mesh_->points()->data(), vertex_count_}; }
 
   /// The face property `dsc:normal` , one a face; empty where no estimator has written it.
   Vec3View normals() const;
@@ -70,7 +78,7 @@ class DigitalSurface {
  private:
   friend class SurfaceBuilder;
 
-  SurfaceMesh mesh_;
+  std::unique_ptr<SurfaceMesh> mesh_;  ///< OpenMesh's meshes do not move, they copy
   OpenMesh::FPropHandleT<QuadCorners> corners_;
   OpenMesh::FPropHandleT<Surfel> surfels_;
   Grid grid_;

@@ -33,6 +33,12 @@ class BinaryVolume {
     return (word(bit >> 6, y, z) >> (bit & 63) & 1) != 0;
   }
 
+  /// The same without the bounds check, for voxels of the grid or of its margin of one voxel.
+  bool in_margin(Index x, Index y, Index z) const {
+    const Index bit = x + 1;
+    return (word(bit >> 6, y, z) >> (bit & 63) & 1) != 0;
+  }
+
   /// Precondition: grid().contains(x, y, z). Threads may write different z at the same time.
   void set(Index x, Index y, Index z, bool inside = true) {
     const Index bit = x + 1;
