@@ -10,8 +10,8 @@
 
 namespace dsc {
 
-/// Sets over 0 … n-1. The root of a set is its smallest member once all joins are done, so labels do
-/// not depend on the order of the joins, nor on threads.
+/// Sets over 0 … n-1. The root of a set is its smallest member once all joins are done, so labels
+/// do not depend on the order of the joins, nor on threads.
 class UnionFind {
  public:
   explicit UnionFind(Index n) : parent_(static_cast<std::size_t>(n)) {

@@ -56,7 +56,8 @@ void DigitalSurface::set_normals(const Eigen::Ref<const Eigen::Matrix3Xd>& u) {
     mesh_->add_property(handle, property::kNormal);
   }
   for (Index f = 0; f < face_count(); ++f) {
-    mesh_->property(handle, OpenMesh::FaceHandle(static_cast<int>(f))) = {u(0, f), u(1, f), u(2, f)};
+    mesh_->property(handle, OpenMesh::FaceHandle(static_cast<int>(f))) = {u(0, f), u(1, f),
+                                                                          u(2, f)};
   }
 }
 

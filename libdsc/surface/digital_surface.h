@@ -21,14 +21,14 @@ namespace dsc {
 
 /// Counts of the surface glued by pointel, whatever the mesh had to split.
 struct SurfaceCounts {
-  Index vertices = 0;            ///< pointels
-  Index edges = 0;               ///< linels
-  Index faces = 0;               ///< surfels
-  Index euler = 0;               ///< V - E + F
-  Index components = 0;          ///< through shared pointels
-  Index boundary_edges = 0;      ///< linels with exactly 1 surfel
-  Index nonmanifold_edges = 0;   ///< linels with more than 2 surfels
-  Index pinched_vertices = 0;    ///< pointels with more than one umbrella
+  Index vertices = 0;           ///< pointels
+  Index edges = 0;              ///< linels
+  Index faces = 0;              ///< surfels
+  Index euler = 0;              ///< V - E + F
+  Index components = 0;         ///< through shared pointels
+  Index boundary_edges = 0;     ///< linels with exactly 1 surfel
+  Index nonmanifold_edges = 0;  ///< linels with more than 2 surfels
+  Index pinched_vertices = 0;   ///< pointels with more than one umbrella
 };
 
 class DigitalSurface {

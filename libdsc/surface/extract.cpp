@@ -102,8 +102,8 @@ class Extraction {
     }
   }
 
-  /// The side that this one, of surfel s, facing e, is linked to. Around their linel lie four voxels:
-  /// s's inner and outer one, and the steps of both along e.
+  /// The side that this one, of surfel s, facing e, is linked to. Around their linel lie four
+  /// voxels: s's inner and outer one, and the steps of both along e.
   SideCode link(SideCode self, const Cell& s, int e, std::vector<topology::Junction>& junctions) {
     const int d = s.direction, back = topology::opposite_direction(e);
     const Voxel inner_e = s.inner.step(e), outer_e = inner_e.step(d);
@@ -139,8 +139,8 @@ std::vector<std::uint8_t> kept_faces(std::span<const Surfel> surfels, const Grid
     for (auto f = static_cast<std::size_t>(first); f < static_cast<std::size_t>(last); ++f) {
       const Surfel& s = surfels[f];
       const auto& step = kStep[s.direction];
-      const bool open =
-          options.border == Border::open && !grid.contains(s.x + step[0], s.y + step[1], s.z + step[2]);
+      const bool open = options.border == Border::open &&
+                        !grid.contains(s.x + step[0], s.y + step[1], s.z + step[2]);
       keep[f] = !open && (!options.part || options.part(s)) ? 1 : 0;
     }
   });

@@ -44,7 +44,8 @@ void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
   const auto handle = [&](SideCode s) { return HalfedgeHandle(at(halfedge, s)); };
   const auto outside = [&](SideCode s) { return HalfedgeHandle(at(halfedge, s) ^ 1); };
   const auto vertex = [&](SideCode s) {
-    return VertexHandle(corners[static_cast<std::size_t>(face_of(s))][static_cast<std::size_t>(s & 3)]);
+    return VertexHandle(
+        corners[static_cast<std::size_t>(face_of(s))][static_cast<std::size_t>(s & 3)]);
   };
   parallel_for(context, faces, kGrain, [&](Index first, Index last) {
     for (Index f = first; f < last; ++f) {
@@ -59,7 +60,8 @@ void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
         // The boundary halfedge runs back to corner i; the boundary goes on from the start of the
         // chain of corners that ends here.
         SideCode start = s;
-        while (previous_around(start, opposite) != kNoSide) start = previous_around(start, opposite);
+        while (previous_around(start, opposite) != kNoSide)
+          start = previous_around(start, opposite);
         mesh.set_vertex_handle(outside(s), vertex(s));
         mesh.set_boundary(outside(s));
         mesh.set_next_halfedge_handle(outside(s), outside(previous_side(start)));

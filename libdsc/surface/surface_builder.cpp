@@ -17,9 +17,9 @@ using topology::SideCode;
 
 constexpr Index kGrain = 8192;
 
-/// Two edges at one linel that would join the same two mesh vertices are linked the other way round,
-/// which splits both their umbrellas: crossing to the other partner is a transposition within one
-/// orbit. Returns the corners whose umbrellas were split.
+/// Two edges at one linel that would join the same two mesh vertices are linked the other way
+/// round, which splits both their umbrellas: crossing to the other partner is a transposition
+/// within one orbit. Returns the corners whose umbrellas were split.
 std::vector<SideCode> separate_parallel_edges(std::vector<SideCode>& opposite,
                                               const std::vector<Junction>& junctions) {
   std::vector<SideCode> split;

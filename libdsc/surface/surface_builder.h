@@ -2,9 +2,10 @@
 /// From linked surfels to a halfedge mesh.
 ///
 /// A builder is filled with faces (their surfels, the vertex ids of their corners), positions, and
-/// the links between sides; finish() writes the halfedge connectivity directly, in parallel, without
-/// OpenMesh's add_face with its search and its rejections. No face is ever lost: where the links
-/// make a vertex that a halfedge mesh cannot hold, the mesh gets one vertex more, not one face less.
+/// the links between sides; finish() writes the halfedge connectivity directly, in parallel,
+/// without OpenMesh's add_face with its search and its rejections. No face is ever lost: where the
+/// links make a vertex that a halfedge mesh cannot hold, the mesh gets one vertex more, not one
+/// face less.
 ///
 /// For the layer's own use: extraction from binary and from label volumes, and of parts.
 #pragma once
@@ -24,10 +25,10 @@ class SurfaceBuilder {
   SurfaceBuilder(const Grid& grid, Index vertices, Index faces);
 
   std::span<Surfel> surfels();
-  std::span<QuadCorners> corners();           ///< pointel ids in [0, vertices)
-  std::span<OpenMesh::Vec3d> positions();     ///< world positions of the pointels
-  /// Per side code the code of the side that it is linked to, or kNoSide. Symmetric; a side is linked
-  /// to one that runs along the same linel the other way.
+  std::span<QuadCorners> corners();        ///< pointel ids in [0, vertices)
+  std::span<OpenMesh::Vec3d> positions();  ///< world positions of the pointels
+  /// Per side code the code of the side that it is linked to, or kNoSide. Symmetric; a side is
+  /// linked to one that runs along the same linel the other way.
   std::vector<topology::SideCode>& opposite() { return opposite_; }
   /// Every linel with more than two surfels, or with two that are not linked.
   std::vector<topology::Junction>& junctions() { return junctions_; }

@@ -27,7 +27,8 @@ namespace property {
 inline constexpr const char* kCorners = "dsc:corners";  ///< face: QuadCorners, the side table
 inline constexpr const char* kSurfel = "dsc:surfel";    ///< face: Surfel
 inline constexpr const char* kNormal = "dsc:normal";    ///< face: OpenMesh::Vec3d, u, outwards
-inline constexpr const char* kVertexId = "dsc:vertex";  ///< vertex: VertexId, its id in the side table
+inline constexpr const char* kVertexId =
+    "dsc:vertex";  ///< vertex: VertexId, its id in the side table
 }  // namespace property
 
 }  // namespace dsc

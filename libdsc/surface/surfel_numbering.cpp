@@ -19,7 +19,8 @@ SurfelNumbering::SurfelNumbering(const BinaryVolume& volume, const Context& cont
   vertex_base_.assign(static_cast<std::size_t>(slices + 1), 0);
   slots_.resize(slice_ * static_cast<std::size_t>(slices));
 
-  // 8 bytes read and 8 written a word: the scan runs at the speed of memory where words are uniform.
+  // 8 bytes read and 8 written a word: the scan runs at the speed of memory where words are
+  // uniform.
   context.begin("scan", slices);
   parallel_for(context, slices, 1, [&](Index z, Index) {
     Index faces = 0, vertices = 0;
@@ -34,7 +35,8 @@ SurfelNumbering::SurfelNumbering(const BinaryVolume& volume, const Context& cont
       }
     }
     if (faces > std::numeric_limits<VertexId>::max()) {
-      throw LimitError("surface: one slice of the volume has more faces than 32-bit ids can number");
+      throw LimitError(
+          "surface: one slice of the volume has more faces than 32-bit ids can number");
     }
     face_base_[static_cast<std::size_t>(z) + 1] = faces;
     vertex_base_[static_cast<std::size_t>(z) + 1] = vertices;

@@ -51,9 +51,12 @@ class SurfelNumbering {
   Word surfel_bits(int axis, Index w, Index y, Index z) const {
     const Word here = volume_.word(w, y, z);
     switch (axis) {
-      case 0: return here ^ shifted(here, w, y, z);
-      case 1: return here ^ volume_.word(w, y - 1, z);
-      default: return here ^ volume_.word(w, y, z - 1);
+      case 0:
+        return here ^ shifted(here, w, y, z);
+      case 1:
+        return here ^ volume_.word(w, y - 1, z);
+      default:
+        return here ^ volume_.word(w, y, z - 1);
     }
   }
   Word pointel_bits(Index w, Index y, Index z) const {
@@ -99,8 +102,8 @@ class SurfelNumbering {
 
   const BinaryVolume& volume_;
   Index words_, rows_;
-  std::size_t slice_;           ///< slots a slice
-  std::vector<Counts> slots_;   ///< cells before this slot, within its slice
+  std::size_t slice_;                           ///< slots a slice
+  std::vector<Counts> slots_;                   ///< cells before this slot, within its slice
   std::vector<Index> face_base_, vertex_base_;  ///< cells before each slice, and in all
 };
 

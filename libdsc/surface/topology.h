@@ -1,8 +1,8 @@
 /// \file
 /// How surfels meet: the corners and sides of the six kinds of surfel, as tables.
 ///
-/// Side i of a face runs from corner i to corner i + 1 along a linel; it faces an in-plane direction.
-/// A side of a face of the mesh is named by its code 4 * face + i.
+/// Side i of a face runs from corner i to corner i + 1 along a linel; it faces an in-plane
+/// direction. A side of a face of the mesh is named by its code 4 * face + i.
 #pragma once
 
 #include "libdsc/surface/surfel.h"

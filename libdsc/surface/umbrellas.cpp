@@ -43,7 +43,8 @@ Umbrellas find_umbrellas(std::span<const QuadCorners> corners, Opposite opposite
   result.first.assign(static_cast<std::size_t>(vertices), kUnset);
   // All leaders of a pointel but the smallest lose exactly one comparison, whatever the order.
   const auto faces = static_cast<Index>(corners.size());
-  std::vector<std::vector<SideCode>> losers(static_cast<std::size_t>((faces + kGrain - 1) / kGrain));
+  std::vector<std::vector<SideCode>> losers(
+      static_cast<std::size_t>((faces + kGrain - 1) / kGrain));
   parallel_for(context, faces, kGrain, [&](Index begin, Index end) {
     auto& lost = losers[static_cast<std::size_t>(begin / kGrain)];
     for (auto corner = side_code(begin, 0); corner < side_code(end, 0); ++corner) {

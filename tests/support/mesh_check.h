@@ -1,6 +1,6 @@
 /// \file
-/// Whether a digital surface is a sound halfedge mesh: stricter than OpenMesh's own MeshChecker, which
-/// accepts broken meshes.
+/// Whether a digital surface is a sound halfedge mesh: stricter than OpenMesh's own MeshChecker,
+/// which accepts broken meshes.
 #pragma once
 
 #include "libdsc/surface/digital_surface.h"
@@ -56,7 +56,8 @@ inline std::string mesh_fault(const DigitalSurface& surface) {
       return say("halfedges in several orbits, vertex", v.idx());
     }
     if (boundary > 1) return say("several boundaries at vertex", v.idx());
-    if (boundary == 1 && !mesh.is_boundary(start)) return say("boundary not first, vertex", v.idx());
+    if (boundary == 1 && !mesh.is_boundary(start))
+      return say("boundary not first, vertex", v.idx());
   }
   OpenMesh::VPropHandleT<VertexId> ids;
   if (!mesh.get_property_handle(ids, property::kVertexId)) return "no vertex ids";
@@ -68,9 +69,11 @@ inline std::string mesh_fault(const DigitalSurface& surface) {
       if (i == 4) return say("not a quad, face", f.idx());
       const auto v = mesh.from_vertex_handle(h);
       const VertexId id = corners[static_cast<std::size_t>(i++)];
-      if (id < 0 || id >= surface.vertex_count()) return say("vertex id out of range, face", f.idx());
+      if (id < 0 || id >= surface.vertex_count())
+        return say("vertex id out of range, face", f.idx());
       if (mesh.property(ids, v) != id) return say("side table and mesh disagree, face", f.idx());
-      if ((mesh.points()[id] - mesh.point(v)).norm() != 0) return say("moved corner, face", f.idx());
+      if ((mesh.points()[id] - mesh.point(v)).norm() != 0)
+        return say("moved corner, face", f.idx());
       h = mesh.next_halfedge_handle(h);
     } while (h != mesh.halfedge_handle(f));
     if (i != 4) return say("not a quad, face", f.idx());

@@ -1,6 +1,6 @@
 /// \file
-/// The topology of a voxel set's boundary, found from the voxels alone in Khalimsky coordinates: the
-/// oracle for extraction. Slow, and shares no code with it.
+/// The topology of a voxel set's boundary, found from the voxels alone in Khalimsky coordinates:
+/// the oracle for extraction. Slow, and shares no code with it.
 #pragma once
 
 #include "libdsc/surface/digital_surface.h"
@@ -112,10 +112,10 @@ Index class_count(const Around& items, const Linked& linked) {
   return classes;
 }
 
-/// Whether two of a linel's surfels are linked. Where two are there: unless they lie in one plane and
-/// face opposite ways. Where more are: if they share the voxel that the adjacency names.
-inline bool linked_at(const BinaryVolume& volume, Adjacency adjacency,
-                      const Around& around, const Cell& s, const Cell& r) {
+/// Whether two of a linel's surfels are linked. Where two are there: unless they lie in one plane
+/// and face opposite ways. Where more are: if they share the voxel that the adjacency names.
+inline bool linked_at(const BinaryVolume& volume, Adjacency adjacency, const Around& around,
+                      const Cell& s, const Cell& r) {
   const int a = normal_axis(s), b = normal_axis(r);
   if (around.size() == 2) {
     return a != b || voxel_at(volume, shifted(s, a, 1)) == voxel_at(volume, shifted(r, b, 1));

@@ -5,9 +5,9 @@
 #include "tests/support/random_volume.h"
 #include "tests/support/voxel_topology.h"
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <OpenMesh/Tools/Utils/MeshCheckerT.hh>
-#include <gtest/gtest.h>
 
 #include <map>
 
@@ -30,7 +30,8 @@ void expect_counts(const SurfaceCounts& a, const SurfaceCounts& b, const std::st
 /// The linel under each mesh edge, found from the positions of its ends.
 Cell linel_of(const DigitalSurface& surface, OpenMesh::HalfedgeHandle h) {
   const auto& mesh = surface.mesh();
-  const auto middle = (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))) * 0.5;
+  const auto middle =
+      (mesh.point(mesh.from_vertex_handle(h)) + mesh.point(mesh.to_vertex_handle(h))) * 0.5;
   Cell c{};
   for (int a = 0; a < 3; ++a) {  // unit spacing, origin 0: pointel i is at i - 1/2
     c[static_cast<std::size_t>(a)] = static_cast<int>(std::lround(2 * (middle[a] + 0.5)));
@@ -132,8 +133,8 @@ TEST_P(ExtractRandom, VolumesAreSoundUnderBothAdjacencies) {
       ExtractOptions options;
       options.adjacency = adjacency;
       options.glue = seed / kShards % 2 == 0 ? Glue::pointel : Glue::umbrella;
-      expect_sound(extract_surface(volume, options), testing::voxel_topology(volume, adjacency),
-                   "seed " + std::to_string(seed));
+      expect_sound(extract_surface(volume, options, Context{1}),
+                   testing::voxel_topology(volume, adjacency), "seed " + std::to_string(seed));
     }
     if (HasFatalFailure() || HasNonfatalFailure()) return;
   }
@@ -174,7 +175,8 @@ TEST(Extract, CornersRunCounterClockwiseSeenFromOutside) {
   const DigitalSurface s = extract_surface(testing::random_volume({6, 6, 6}, 0.4, 7));
   for (std::size_t f = 0; f < s.surfels().size(); ++f) {
     const QuadCorners& c = s.corners()[f];
-    const Vec3 x0 = s.position(c[0]), x1 = s.position(c[1]), x2 = s.position(c[2]), x3 = s.position(c[3]);
+    const Vec3 x0 = s.position(c[0]), x1 = s.position(c[1]), x2 = s.position(c[2]),
+               x3 = s.position(c[3]);
     EXPECT_EQ((x1 - x0).cross(x3 - x0), s.surfels()[f].normal());
     EXPECT_EQ(x2 - x3, x1 - x0);
     EXPECT_EQ((x0 + x2) / 2, s.surfels()[f].centre(s.grid()));
@@ -219,8 +221,9 @@ TEST_P(ExtractRandom, PartsAreSound) {
       options.adjacency = adjacency;
       options.glue = seed / kShards % 2 == 0 ? Glue::pointel : Glue::umbrella;
       options.part = [&](const Surfel& s) { return kept(testing::cell_of(s)); };
-      expect_sound(extract_surface(volume, options),
-                   testing::voxel_topology(volume, adjacency, kept), "part " + std::to_string(seed));
+      expect_sound(extract_surface(volume, options, Context{1}),
+                   testing::voxel_topology(volume, adjacency, kept),
+                   "part " + std::to_string(seed));
     }
     if (HasFatalFailure() || HasNonfatalFailure()) return;
   }
