@@ -13,11 +13,4 @@ struct NormalField {
   double radius = 0;    ///< world radius of the estimator's neighbourhood; 0 where it has none
 };
 
-/// The same facts once the normals have gone to a surface's face property.
-struct NormalReport {
-  Index faces = 0;
-  Index fallbacks = 0;
-  double radius = 0;
-};
-
 }  // namespace dsc

@@ -1,0 +1,32 @@
+/// \file
+/// The estimators on a DigitalSurface: each writes the face property `dsc:normal` and reports.
+///
+/// Where one throws, the surface keeps the normals that it had.
+#pragma once
+
+#include "libdsc/normals/analytic.h"
+#include "libdsc/normals/integral_invariant.h"
+#include "libdsc/normals/trivial.h"
+
+namespace dsc {
+
+class DigitalSurface;
+
+/// What was written; the normals themselves are surface.normals().
+struct NormalReport {
+  Index fallbacks = 0;  ///< faces that kept their own normal
+  double radius = 0;    ///< world radius of the ball; 0 where the estimator has none
+};
+
+/// `volume` is the one that the surface was extracted from. \throws UsageError where its grid has
+/// another size or spacing; otherwise as on surfels.
+NormalReport integral_invariant_normals(DigitalSurface& surface, const BinaryVolume& volume,
+                                        const IntegralInvariantOptions& options,
+                                        const Context& context = {});
+
+NormalReport trivial_normals(DigitalSurface& surface, const Context& context = {});
+
+NormalReport analytic_normals(DigitalSurface& surface, const ImplicitShape& shape,
+                              const Context& context = {});
+
+}  // namespace dsc
