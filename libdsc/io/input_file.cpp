@@ -1,0 +1,66 @@
+#include "libdsc/io/input_file.h"
+
+#include "libdsc/base/error.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace dsc {
+
+InputFile::InputFile(const std::string& path) : path_(path) {
+  const auto refuse = [&](int error) {
+    throw InputError("cannot read '" + path + "': " + std::system_category().message(error));
+  };
+  // Not blocking: a pipe without a writer is refused below instead of waited for.
+  file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file_ < 0) refuse(errno);
+  struct stat info {};
+  if (::fstat(file_, &info) != 0) {
+    const int error = errno;
+    (void)::close(file_);
+    refuse(error);
+  }
+  if (!S_ISREG(info.st_mode)) {
+    (void)::close(file_);
+    throw InputError("cannot read '" + path +
+                     "': it is no regular file; save a pipe's data to a file first");
+  }
+  size_ = info.st_size;
+}
+
+InputFile::~InputFile() { (void)::close(file_); }
+
+void InputFile::fail(Index at, const std::string& why) const {
+  throw InputError("'" + path_ + "', byte " + std::to_string(at) + ": " + why);
+}
+
+Index InputFile::read_some(void* to, Index bytes) {
+  for (;;) {
+    const ssize_t count = ::pread(file_, to, static_cast<std::size_t>(bytes), position_);
+    if (count >= 0) {
+      position_ += count;
+      return count;
+    }
+    if (errno != EINTR) fail(position_, std::system_category().message(errno));
+  }
+}
+
+void InputFile::read(void* to, Index bytes) {
+  char* next = static_cast<char*>(to);
+  while (bytes > 0) {
+    const Index count = read_some(next, bytes);
+    if (count == 0)
+      fail(position_, "the file ends here, " + std::to_string(bytes) + " bytes short");
+    next += count;
+    bytes -= count;
+  }
+}
+
+void InputFile::seek(Index position) { position_ = position; }
+
+}  // namespace dsc

@@ -1,0 +1,40 @@
+/// \file
+/// A regular file that is read front to back, with errors that name the file and the byte.
+#pragma once
+
+#include "libdsc/base/types.h"
+
+#include <string>
+
+namespace dsc {
+
+class InputFile {
+ public:
+  /// \throws InputError where `path` cannot be opened or is no regular file.
+  explicit InputFile(const std::string& path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  const std::string& path() const { return path_; }
+  Index size() const { return size_; }          ///< bytes
+  Index position() const { return position_; }  ///< of the next byte to be read
+  Index remaining() const { return size_ - position_; }
+
+  /// Reads exactly `bytes`. \throws InputError where the file ends before.
+  void read(void* to, Index bytes);
+  /// Reads at most `bytes`; 0 at the end of the file.
+  Index read_some(void* to, Index bytes);
+  void seek(Index position);
+
+  /// \throws InputError "PATH, byte AT: why".
+  [[noreturn]] void fail(Index at, const std::string& why) const;
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  Index size_ = 0;
+  Index position_ = 0;
+};
+
+}  // namespace dsc

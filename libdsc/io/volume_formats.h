@@ -1,0 +1,33 @@
+/// \file
+/// What the readers of the formats share. Private to io/.
+#pragma once
+
+#include "libdsc/io/input_file.h"
+#include "libdsc/io/volume_source.h"
+
+#include <memory>
+#include <string>
+
+namespace dsc::detail {
+
+std::unique_ptr<VolumeSource> open_vol(const std::string& path, bool longvol);
+std::unique_ptr<VolumeSource> open_npy(const std::string& path);
+
+/// How values lie in a file.
+struct ValueType {
+  int bytes = 1;
+  bool is_signed = false;
+  bool swap = false;  ///< the file's byte order is not this machine's
+};
+
+/// Delivers the next bytes of the values.
+using ByteReader = std::function<void(void* to, Index bytes)>;
+
+/// Hands `slices` slices of `per_slice` values each to `take`, in slabs.
+void stream_slabs(Index slices, Index per_slice, const ValueType& type, const ByteReader& next,
+                  const std::function<void(const Slab&)>& take, const Context& context);
+
+/// The lower-case extension with its dot.
+std::string extension_of(const std::string& path);
+
+}  // namespace dsc::detail

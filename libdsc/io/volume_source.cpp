@@ -1,0 +1,85 @@
+#include "libdsc/io/volume_source.h"
+
+#include "libdsc/base/checked.h"
+#include "libdsc/base/error.h"
+#include "libdsc/io/volume_formats.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace dsc {
+namespace detail {
+namespace {
+
+/// Reverses the bytes of every value in place.
+template <class T>
+void swap_bytes(T* values, Index count) {
+  for (Index i = 0; i < count; ++i) {
+    auto* bytes = reinterpret_cast<unsigned char*>(values + i);
+    std::reverse(bytes, bytes + sizeof(T));
+  }
+}
+
+template <class T>
+void stream_typed(Index slices, Index per_slice, bool swap, const ByteReader& next,
+                  const std::function<void(const Slab&)>& take, const Context& context) {
+  constexpr Index kSlabBytes = Index{4} << 20;
+  const Index bytes_per_slice = checked_product(per_slice, sizeof(T), "bytes of a slice");
+  const Index per_slab =
+      std::clamp<Index>(kSlabBytes / std::max<Index>(1, bytes_per_slice), 1, slices);
+  std::vector<T> buffer(static_cast<std::size_t>(per_slice * per_slab));
+  for (Index first = 0; first < slices; first += per_slab) {
+    context.check();
+    const Index last = std::min(slices, first + per_slab);
+    const Index count = (last - first) * per_slice;
+    next(buffer.data(), count * static_cast<Index>(sizeof(T)));
+    if (swap) swap_bytes(buffer.data(), count);
+    take(Slab{first, last, std::span<const T>(buffer.data(), static_cast<std::size_t>(count))});
+    context.advance(last - first);
+  }
+}
+
+}  // namespace
+
+void stream_slabs(Index slices, Index per_slice, const ValueType& type, const ByteReader& next,
+                  const std::function<void(const Slab&)>& take, const Context& context) {
+  const auto stream = [&](auto unsigned_zero, auto signed_zero) {
+    if (type.is_signed) {
+      stream_typed<decltype(signed_zero)>(slices, per_slice, type.swap, next, take, context);
+    } else {
+      stream_typed<decltype(unsigned_zero)>(slices, per_slice, type.swap, next, take, context);
+    }
+  };
+  switch (type.bytes) {
+    case 1:
+      return stream(std::uint8_t{}, std::int8_t{});
+    case 2:
+      return stream(std::uint16_t{}, std::int16_t{});
+    case 4:
+      return stream(std::uint32_t{}, std::int32_t{});
+    default:
+      return stream(std::uint64_t{}, std::int64_t{});
+  }
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension;
+}
+
+}  // namespace detail
+
+std::unique_ptr<VolumeSource> open_volume(const std::string& path) {
+  const std::string extension = detail::extension_of(path);
+  if (extension == ".vol") return detail::open_vol(path, false);
+  if (extension == ".longvol") return detail::open_vol(path, true);
+  if (extension == ".npy") return detail::open_npy(path);
+  throw UsageError("'" + path + "': the extension '" + extension +
+                   "' is no volume format; .vol, .longvol and .npy are read");
+}
+
+}  // namespace dsc

@@ -1,0 +1,65 @@
+/// \file
+/// A volume of integer values in a file, read in slabs, so that a binary volume is made without a
+/// copy of the labels.
+///
+/// Formats, by extension:
+/// - `.vol`, `.longvol` (DGtal, simplevol): lines `Key: value` up to a line `.`, then the values, x
+///   fastest, then y, then z; one byte each (.vol) or eight little-endian bytes (.longvol). Keys X,
+///   Y, Z are required, and Version: 2 (raw) or 3 (zlib). `Voxel-Size` and `Lvoxel-Size` count
+///   bytes in a voxel; the spacing is 1 unless the keys `Spacing-X`, `-Y`, `-Z` (ours) give
+///   another. `Center-…` and other keys are not used.
+/// - `.npy`, versions 1 to 3: a 3-D array indexed [z][y][x], in C or Fortran order, of bool or
+///   signed or unsigned integers of 1 to 8 bytes, either byte order. Spacing 1.
+///
+/// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k).
+#pragma once
+
+#include "libdsc/base/context.h"
+#include "libdsc/voxels/grid.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace dsc {
+
+/// Voxel values in memory that somebody else owns, of the file's own type (bool as 0 and 1 in
+/// uint8).
+using VoxelValues = std::variant<std::span<const std::uint8_t>, std::span<const std::int8_t>,
+                                 std::span<const std::uint16_t>, std::span<const std::int16_t>,
+                                 std::span<const std::uint32_t>, std::span<const std::int32_t>,
+                                 std::span<const std::uint64_t>, std::span<const std::int64_t>>;
+
+/// Consecutive slices [first, last) of a volume.
+struct Slab {
+  Index first = 0;
+  Index last = 0;
+  VoxelValues values;
+};
+
+class VolumeSource {
+ public:
+  VolumeSource() = default;
+  VolumeSource(const VolumeSource&) = delete;
+  VolumeSource& operator=(const VolumeSource&) = delete;
+  virtual ~VolumeSource() = default;
+
+  virtual const Grid& grid() const = 0;
+  /// True: slices are of constant z, and (x, y, z) is at x + X (y + Y (z - first)) of its slab.
+  /// False (Fortran order): slices are of constant x, and it is at z + Z (y + Y (x - first)).
+  virtual bool x_fastest() const = 0;
+
+  /// Hands every slab to `take`, in order, each of about 4 MiB. May be called once.
+  /// \throws InputError where the data is damaged, too short or too long; what `take` throws.
+  virtual void read(const std::function<void(const Slab&)>& take, const Context& context = {}) = 0;
+};
+
+/// Reads and checks the header. Nothing of the volume's size is allocated.
+/// \throws InputError naming the file, the byte and the remedy; UsageError where the extension is
+/// not one of the above.
+std::unique_ptr<VolumeSource> open_volume(const std::string& path);
+
+}  // namespace dsc

@@ -1,0 +1,237 @@
+#include "libdsc/io/volume_writer.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/io/atomic_file.h"
+#include "libdsc/io/volume_formats.h"
+
+#include <zlib.h>
+
+#include <bit>
+#include <charconv>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace dsc {
+namespace {
+
+enum class Format { kVol, kLongvol, kNpy };
+
+Format format_of(const std::string& path) {
+  const std::string extension = detail::extension_of(path);
+  if (extension == ".vol") return Format::kVol;
+  if (extension == ".longvol") return Format::kLongvol;
+  if (extension == ".npy") return Format::kNpy;
+  throw UsageError("'" + path + "': the extension '" + extension +
+                   "' is no volume format; .vol, .longvol and .npy are written");
+}
+
+std::string number(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string vol_header(const Grid& grid, bool longvol, bool compress) {
+  const char* const axes[] = {"X", "Y", "Z"};
+  std::string text;
+  for (std::size_t a = 0; a < 3; ++a) {
+    text += std::string("Center-") + axes[a] + ": " + std::to_string(grid.size[a] / 2) + "\n";
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    text += std::string(axes[a]) + ": " + std::to_string(grid.size[a]) + "\n";
+  }
+  if (grid.spacing != Vec3::Ones()) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      text += std::string("Spacing-") + axes[a] + ": " + number(grid.spacing[int(a)]) + "\n";
+    }
+  }
+  const std::string prefix = longvol ? "Lvoxel" : "Voxel";
+  return text + prefix + "-Size: " + (longvol ? "8" : "1") + "\nAlpha-Color: 0\n" + prefix +
+         "-Endian: 0\nInt-Endian: 0123\nVersion: " + (compress ? "3" : "2") + "\n.\n";
+}
+
+std::string npy_header(const Grid& grid, const std::string& descr) {
+  std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (" +
+                     std::to_string(grid.size[2]) + ", " + std::to_string(grid.size[1]) + ", " +
+                     std::to_string(grid.size[0]) + "), }";
+  text.append(63 - (10 + text.size()) % 64, ' ');  // the data begins at a multiple of 64
+  text += '\n';
+  const auto length = static_cast<unsigned>(text.size());
+  const std::string start = {'\x93',
+                             'N',
+                             'U',
+                             'M',
+                             'P',
+                             'Y',
+                             '\x01',
+                             '\x00',
+                             static_cast<char>(length & 255),
+                             static_cast<char>(length >> 8)};
+  return start + text;
+}
+
+/// Bytes to a file, through zlib or not.
+class Sink {
+ public:
+  Sink(AtomicFile& file, bool compress) : file_(file), compress_(compress) {
+    if (!compress) return;
+    out_.resize(std::size_t{1} << 18);
+    if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK) {
+      throw LimitError("zlib: no memory to deflate");
+    }
+  }
+  Sink(const Sink&) = delete;
+  Sink& operator=(const Sink&) = delete;
+  ~Sink() {
+    if (compress_) (void)deflateEnd(&stream_);
+  }
+
+  void write(const void* data, std::size_t bytes) {
+    if (!compress_) return file_.write(data, bytes);
+    constexpr std::size_t kChunk = std::size_t{1} << 30;  // zlib counts in 32 bits
+    const auto* next = static_cast<const Bytef*>(data);
+    while (bytes > 0) {
+      const std::size_t chunk = std::min(bytes, kChunk);
+      stream_.next_in = const_cast<Bytef*>(next);
+      stream_.avail_in = static_cast<uInt>(chunk);
+      run(Z_NO_FLUSH);
+      next += chunk;
+      bytes -= chunk;
+    }
+  }
+  void finish() {
+    if (compress_) run(Z_FINISH);
+  }
+
+ private:
+  void run(int flush) {
+    do {
+      stream_.next_out = out_.data();
+      stream_.avail_out = static_cast<uInt>(out_.size());
+      (void)deflate(&stream_, flush);
+      file_.write(out_.data(), out_.size() - stream_.avail_out);
+    } while (stream_.avail_out == 0);
+  }
+
+  AtomicFile& file_;
+  bool compress_;
+  std::vector<Bytef> out_;
+  z_stream stream_{};
+};
+
+/// Writes header and slices; fill(z, values) gives the X Y values of slice z as type T.
+template <class T, class Fill>
+void write_slices(const std::string& path, const Grid& grid, const std::string& header,
+                  bool compress, const Fill& fill, const Context& context) {
+  AtomicFile file(path);
+  file.write(header);
+  Sink sink(file, compress);
+  const Index slice = checked_product(grid.size[0], grid.size[1], "voxels of a slice");
+  std::vector<T> values(static_cast<std::size_t>(slice));
+  context.begin("write", grid.size[2]);
+  for (Index z = 0; z < grid.size[2]; ++z) {
+    context.check();
+    fill(z, values.data());
+    sink.write(values.data(), values.size() * sizeof(T));
+    context.advance(1);
+  }
+  sink.finish();
+  file.commit();
+}
+
+void check_grid(const Grid& grid, const std::string& path) {
+  for (const Index size : grid.size) {
+    if (size <= 0) throw InputError("'" + path + "': an empty volume cannot be written");
+  }
+}
+
+/// "<i4" and so on, of this machine's byte order.
+template <class T>
+std::string descr_of() {
+  const char order = sizeof(T) == 1 ? '|' : std::endian::native == std::endian::little ? '<' : '>';
+  return {order, std::is_signed_v<T> ? 'i' : 'u', static_cast<char>('0' + sizeof(T))};
+}
+
+static_assert(std::endian::native == std::endian::little,
+              ".longvol words are written as they are in memory");
+
+/// `value` as a T. \throws InputError where it does not fit.
+template <class T, class From>
+T fitting(From value, Index at, const Grid& grid, const std::string& path) {
+  if (!std::in_range<T>(value)) {
+    const Index x = at % grid.size[0];
+    const Index y = at / grid.size[0] % grid.size[1];
+    const Index z = at / grid.size[0] / grid.size[1];
+    throw InputError("'" + path + "': the value " + std::to_string(value) + " of voxel (" +
+                     std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) +
+                     ") does not fit the format; write .npy");
+  }
+  return static_cast<T>(value);
+}
+
+template <class From>
+void write_typed(const std::string& path, const Grid& grid, std::span<const From> values,
+                 bool compress, const Context& context) {
+  const Index slice = grid.size[0] * grid.size[1];
+  const auto convert = [&](Index z, auto* to) {
+    using T = std::remove_pointer_t<decltype(to)>;
+    for (Index k = 0; k < slice; ++k) {
+      const Index at = z * slice + k;
+      to[k] = fitting<T>(values[static_cast<std::size_t>(at)], at, grid, path);
+    }
+  };
+  switch (format_of(path)) {
+    case Format::kVol:
+      return write_slices<std::uint8_t>(path, grid, vol_header(grid, false, compress), compress,
+                                        convert, context);
+    case Format::kLongvol:
+      return write_slices<std::uint64_t>(path, grid, vol_header(grid, true, compress), compress,
+                                         convert, context);
+    case Format::kNpy:
+      return write_slices<From>(path, grid, npy_header(grid, descr_of<From>()), false, convert,
+                                context);
+  }
+}
+
+}  // namespace
+
+void write_volume(const std::string& path, const BinaryVolume& volume,
+                  const VolumeWriteOptions& options, const Context& context) {
+  const Grid& grid = volume.grid();
+  const Format format = format_of(path);
+  check_grid(grid, path);
+  const auto fill = [&](Index z, auto* to) {
+    for (Index y = 0; y < grid.size[1]; ++y) {
+      for (Index x = 0; x < grid.size[0]; ++x) *to++ = volume(x, y, z) ? 1 : 0;
+    }
+  };
+  switch (format) {
+    case Format::kVol:
+      return write_slices<std::uint8_t>(path, grid, vol_header(grid, false, options.compress),
+                                        options.compress, fill, context);
+    case Format::kLongvol:
+      return write_slices<std::uint64_t>(path, grid, vol_header(grid, true, options.compress),
+                                         options.compress, fill, context);
+    case Format::kNpy:
+      return write_slices<std::uint8_t>(path, grid, npy_header(grid, "|b1"), false, fill, context);
+  }
+}
+
+void write_volume(const std::string& path, const Grid& grid, const VoxelValues& values,
+                  const VolumeWriteOptions& options, const Context& context) {
+  (void)format_of(path);
+  check_grid(grid, path);
+  std::visit(
+      [&](auto span) {
+        if (static_cast<Index>(span.size()) != grid.voxels()) {
+          throw InputError("'" + path + "': " + std::to_string(span.size()) +
+                           " values were given for a grid of " + std::to_string(grid.voxels()) +
+                           " voxels");
+        }
+        write_typed(path, grid, span, options.compress, context);
+      },
+      values);
+}
+
+}  // namespace dsc

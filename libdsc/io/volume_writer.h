@@ -1,0 +1,32 @@
+/// \file
+/// Volumes to `.vol`, `.longvol` and `.npy`, chosen by the extension (formats: volume_source.h).
+///
+/// Files appear whole or not at all (AtomicFile). A spacing other than 1 is written to `.vol` and
+/// `.longvol` as the keys Spacing-X, -Y, -Z, which other readers ignore; `.npy` has no place for
+/// it, nor any of the three for the origin: those are not written.
+#pragma once
+
+#include "libdsc/base/context.h"
+#include "libdsc/io/volume_source.h"
+#include "libdsc/voxels/binary_volume.h"
+
+#include <string>
+
+namespace dsc {
+
+struct VolumeWriteOptions {
+  bool compress = true;  ///< .vol and .longvol: version 3 (zlib) or 2 (raw)
+};
+
+/// Voxels inside become 1, the others 0; .npy gets the type bool. \throws UsageError on another
+/// extension, OutputError where the file cannot be written.
+void write_volume(const std::string& path, const BinaryVolume& volume,
+                  const VolumeWriteOptions& options = {}, const Context& context = {});
+
+/// values[x + X (y + Y z)]. .npy keeps the type; .vol wants values in [0, 255], .longvol values
+/// that are not negative. \throws InputError on others, naming the first voxel, or where the number
+/// of values is not the grid's.
+void write_volume(const std::string& path, const Grid& grid, const VoxelValues& values,
+                  const VolumeWriteOptions& options = {}, const Context& context = {});
+
+}  // namespace dsc

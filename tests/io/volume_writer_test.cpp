@@ -1,0 +1,111 @@
+#include "libdsc/io/volume_writer.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/io/read_binary.h"
+#include "libdsc/voxels/digitize.h"
+#include "libdsc/voxels/shapes.h"
+#include "tests/io/temporary_folder.h"
+#include "tests/io/volume_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace dsc {
+namespace {
+
+TEST(VolumeWriter, EveryFormatReadsBackAsTheSameVoxels) {
+  const TemporaryFolder folder;
+  const BinaryVolume volume = digitize(Torus(), {0.05, 0.04, 0.06});
+  for (const char* name : {"v.vol", "v.longvol", "v.npy"}) {
+    for (const bool compress : {true, false}) {
+      SCOPED_TRACE(name);
+      const std::string path = folder / name;
+      write_volume(path, volume, {compress});
+      const BinaryVolume back = read_binary(path);
+      ASSERT_EQ(back.grid().size, volume.grid().size);
+      if (std::string(name) != "v.npy") {
+        EXPECT_EQ(back.grid().spacing, volume.grid().spacing);
+      }
+      EXPECT_EQ(back.count(), volume.count());
+      for (Index z = 0; z < volume.grid().size[2]; ++z) {
+        for (Index y = 0; y < volume.grid().size[1]; ++y) {
+          for (Index w = 0; w < volume.words_per_row(); ++w) {
+            ASSERT_EQ(back.word(w, y, z), volume.word(w, y, z));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(VolumeWriter, RawFilesHaveTheBytesOfTheFormat) {
+  const TemporaryFolder folder;
+  Grid grid;
+  grid.size = {3, 1, 2};
+  const std::vector<std::uint8_t> values = {0, 1, 2, 253, 254, 255};
+  write_volume(folder / "v.vol", grid, std::span(values), {false});
+  const std::string vol = read_all(folder / "v.vol");
+  EXPECT_EQ(vol.substr(vol.find("\n.\n") + 3), std::string("\0\1\2\xfd\xfe\xff", 6));
+  for (const char* line : {"X: 3\n", "Y: 1\n", "Z: 2\n", "Version: 2\n", "Voxel-Size: 1\n"}) {
+    EXPECT_NE(vol.find(line), std::string::npos) << line;
+  }
+  write_volume(folder / "v.longvol", grid, std::span(values), {false});
+  const std::string longvol = read_all(folder / "v.longvol");
+  EXPECT_EQ(longvol.substr(longvol.find("\n.\n") + 3 + 24),
+            little_endian(253, 8) + little_endian(254, 8) + little_endian(255, 8));
+  write_volume(folder / "v.npy", grid, std::span(values), {false});
+  const std::string npy = read_all(folder / "v.npy");
+  EXPECT_EQ(npy.substr(0, 8), std::string("\x93NUMPY\1\0", 8));
+  EXPECT_NE(npy.find("'shape': (2, 1, 3)"), std::string::npos);
+  EXPECT_EQ((npy.size() - 6) % 64, 0u);
+  EXPECT_EQ(npy[npy.size() - 7], '\n');
+}
+
+template <class T>
+void expect_typed_roundtrip(const std::string& path, const std::vector<T>& values) {
+  Grid grid;
+  grid.size = {2, 2, 1};
+  write_volume(path, grid, std::span(values));
+  const auto source = open_volume(path);
+  bool seen = false;
+  source->read([&](const Slab& slab) {
+    const auto* back = std::get_if<std::span<const T>>(&slab.values);
+    ASSERT_NE(back, nullptr);
+    EXPECT_EQ(std::vector<T>(back->begin(), back->end()), values);
+    seen = true;
+  });
+  EXPECT_TRUE(seen);
+}
+
+TEST(VolumeWriter, NpyKeepsTheTypeOfTheValues) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.npy";
+  expect_typed_roundtrip<std::uint8_t>(path, {0, 1, 2, 255});
+  expect_typed_roundtrip<std::int8_t>(path, {0, 1, -128, 127});
+  expect_typed_roundtrip<std::uint16_t>(path, {0, 1, 2, 65535});
+  expect_typed_roundtrip<std::int16_t>(path, {0, 1, -32768, 32767});
+  expect_typed_roundtrip<std::uint32_t>(path, {0, 1, 2, 4294967295u});
+  expect_typed_roundtrip<std::int32_t>(path, {0, 1, -5, 2000000000});
+  expect_typed_roundtrip<std::uint64_t>(path, {0, 1, 2, ~0ull});
+  expect_typed_roundtrip<std::int64_t>(path, {0, 1, -2, INT64_MIN});
+}
+
+TEST(VolumeWriter, ValuesThatDoNotFitAreRefusedAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  Grid grid;
+  grid.size = {2, 2, 1};
+  const std::vector<std::int32_t> values = {0, 1, 2, 256};
+  expect_input_error([&] { write_volume(folder / "v.vol", grid, std::span(values)); },
+                     {"v.vol", "256", "(1, 1, 0)", ".npy"});
+  const std::vector<std::int64_t> negative = {0, -1, 2, 3};
+  expect_input_error([&] { write_volume(folder / "v.longvol", grid, std::span(negative)); },
+                     {"-1", "(1, 0, 0)"});
+  grid.size = {2, 2, 2};
+  EXPECT_THROW(write_volume(folder / "v.npy", grid, std::span(values)), InputError);
+  EXPECT_THROW(write_volume(folder / "v.tif", grid, std::span(values)), UsageError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace dsc
