@@ -129,7 +129,8 @@ Mat3 Heart::hessian(const Vec3& p) const {
   const double zzz = s.z() * p.z();
   const double a = s.x() + ((2.25 * s.y() + s.z()) - 1.);
   const Vec3 da(2. * p.x(), 4.5 * p.y(), 2. * p.z());
-  Mat3 h = 6. * a * (da * da.transpose());
+  Mat3 h = da * da.transpose();  // symmetric to the last bit, unlike (6 a da) da^T
+  h *= 6. * a;
   h.diagonal() += 3. * a * a * Vec3(2., 4.5, 2.) -
                   Vec3(2. * zzz, 0.225 * zzz, 6. * (s.x() + 0.1125 * s.y()) * p.z());
   h(0, 2) -= 6. * p.x() * s.z();
