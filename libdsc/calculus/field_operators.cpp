@@ -6,8 +6,6 @@
 #include "libdsc/calculus/surfel_operators.h"
 #include "libdsc/calculus/vertex_blocks.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <string>
 

@@ -3,8 +3,6 @@
 #include "libdsc/calculus/embedding.h"
 #include "libdsc/calculus/mesh_checks.h"
 
-#include <Eigen/Geometry>
-
 namespace dsc {
 
 PolygonKernel::PolygonKernel(const FlatMesh& mesh, const CalculusOptions& options)

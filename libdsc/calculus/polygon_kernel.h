@@ -13,6 +13,8 @@
 #include "libdsc/calculus/surfel_operators.h"
 #include "libdsc/surface/flat_mesh.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace dsc {
