@@ -1,14 +1,30 @@
-// An OpenMesh program that uses the installed headers and the installed library.
-#include <libdsc/surface/surface_mesh.h>
-#include <libdsc/voxels/binary_volume.h>
+// An OpenMesh program that uses the installed headers and the installed library: the surface of one
+// voxel, seen as a mesh.
+#include <libdsc/surface/digital_surface.h>
+#include <libdsc/surface/extract.h>
 
 #include <iostream>
 
 int main() {
   dsc::Grid grid;
   grid.size = {3, 3, 3};
+  grid.spacing = {1., 2., 3.};
   dsc::BinaryVolume volume(grid);
   volume.set(1, 1, 1);
-  dsc::SurfaceMesh mesh;
-  return volume.count() == 1 && mesh.n_faces() == 0 ? 0 : 1;
+  const dsc::DigitalSurface surface = dsc::extract_surface(volume);
+  const dsc::SurfaceMesh& mesh = surface.mesh();
+
+  double area = 0;
+  for (const auto face : mesh.faces()) {
+    for (const auto halfedge : face.halfedges()) {
+      // The corners of a rectangle span four times its area together.
+      area +=
+          0.25 * (mesh.calc_edge_vector(halfedge) % mesh.calc_edge_vector(halfedge.next())).norm();
+    }
+  }
+  std::cout << mesh.n_vertices() << " vertices, " << mesh.n_edges() << " edges, " << mesh.n_faces()
+            << " faces, area " << area << '\n';
+  const bool right = mesh.n_vertices() == 8 && mesh.n_edges() == 12 && mesh.n_faces() == 6 &&
+                     area == 2 * (1 * 2 + 2 * 3 + 3 * 1);
+  return right ? 0 : 1;
 }
