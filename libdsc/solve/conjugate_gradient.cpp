@@ -2,8 +2,9 @@
 
 #include "libdsc/solve/multigrid_hierarchy.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 namespace dsc {
 namespace {
@@ -79,12 +80,10 @@ double relative_residual(RowsView<double> a, const Vector& b, const Vector& x,
 }
 
 void throw_not_converged(int iterations, double reached, double asked) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "multigrid stopped after %d iterations at a relative residual of %.3g, not %.3g; "
-                "loosen the tolerance, allow more iterations or use a direct solver",
-                iterations, reached, asked);
-  throw SolverError(text);
+  throw SolverError(
+      fmt::format("multigrid stopped after {} iterations at a relative residual of {:.3g}, not "
+                  "{:.3g}; loosen the tolerance, allow more iterations or use a direct solver",
+                  iterations, reached, asked));
 }
 
 ConjugateGradientResult conjugate_gradient(RowsView<double> a, const MultigridHierarchy& multigrid,
