@@ -11,7 +11,7 @@ set(layers base voxels surface normals calculus solve algorithms truth io cli)
 set(restricted
   "^OpenMesh/"                                    "^(surface/|io/|calculus/on_mesh\\.h$)"
   "^CGAL/"                                        "^truth/"
-  "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|unistd\\.h|sys/.*|zlib\\.h)$"  "^(io|cli)/"
+  "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|sys/.*|zlib\\.h)$"  "^(io|cli)/"
   "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
   "^thread$"                                      "^(base|cli)/"
   "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"
