@@ -10,6 +10,9 @@
 namespace dsc {
 namespace {
 
+/// Keeps sizes with their margins, in doubled coordinates too, far from overflow.
+constexpr Index kLongestAxis = Index{1} << 40;
+
 /// Bytes of memory that the machine has; 0 where it does not say. Systems grant more than that and
 /// kill the process later, so an allocation alone is no test.
 Index physical_memory() {
@@ -25,6 +28,10 @@ BinaryVolume::BinaryVolume(const Grid& grid) : grid_(grid) {
     if (grid.size[axis] < 0) {
       throw InputError("volume: negative size " + std::to_string(grid.size[axis]) + " along axis " +
                        std::to_string(axis));
+    }
+    if (grid.size[axis] > kLongestAxis) {
+      throw LimitError("volume: " + std::to_string(grid.size[axis]) + " voxels along axis " +
+                       std::to_string(axis) + " are more than 2^40");
     }
     if (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis]) ||
         !std::isfinite(grid.origin[axis])) {

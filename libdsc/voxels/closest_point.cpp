@@ -112,7 +112,7 @@ class Search {
       rhs << q - p_ + mu * g, shape_.value(q) / scale;
       const Vec4 step = jacobian.fullPivLu().solve(-rhs);
       if (!step.allFinite()) break;
-      bool moved = false;
+      const double before = r;
       for (double t = 1.; t > 1e-3; t *= 0.5) {
         const Vec3 next = q + t * step.head<3>();
         const double next_mu = mu + t * step[3] / scale;
@@ -121,11 +121,11 @@ class Search {
           q = next;
           mu = next_mu;
           r = next_r;
-          moved = true;
           break;
         }
       }
-      if (!moved) break;
+      // No step helped, or rounding is all that is left.
+      if (r == before || (r > 0.25 * before && r < 1e-24 * size_ * size_)) break;
     }
     return q;
   }
