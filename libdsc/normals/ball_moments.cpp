@@ -72,6 +72,7 @@ BallScanner::BallScanner(const BinaryVolume& volume, double radius, Centres cent
     rows_.emplace_back(ball_, Index3{0, 1, 0});
     rows_.emplace_back(ball_, Index3{0, 0, 1});
   }
+  for (const BallRows& rows : rows_) masks_.push_back(BallMasks::make(rows));
 }
 
 BallScanner::~BallScanner() = default;
@@ -87,7 +88,14 @@ std::size_t BallScanner::kind(const Index3& centre) const {
   throw UsageError("ball: the scanner was not built for centres of this kind (voxel or surfel)");
 }
 
-BallMoments BallScanner::operator()(const Index3& centre) const { return plain(centre); }
+bool BallScanner::vectorised() const {
+  return std::all_of(masks_.begin(), masks_.end(), [](const auto& m) { return m != nullptr; });
+}
+
+BallMoments BallScanner::operator()(const Index3& centre) const {
+  const BallMasks* masks = masks_[kind(centre)].get();
+  return masks != nullptr ? masks->moments(volume_, centre) : plain(centre);
+}
 
 BallMoments BallScanner::plain(const Index3& centre) const {
   const BallRows& rows = rows_[kind(centre)];

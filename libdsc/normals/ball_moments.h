@@ -26,6 +26,8 @@ struct BallMoments {
 /// voxel. The integers are combined exactly, so each entry is within a few roundings of the truth.
 Mat3 covariance(const BallMoments& moments, const Vec3& spacing);
 
+class BallMasks;
+
 /// Scans balls of one radius in one volume. Built once, then read by any number of threads.
 class BallScanner {
  public:
@@ -49,8 +51,8 @@ class BallScanner {
   /// without it and for balls wider than its registers.
   BallMoments plain(const Index3& centre) const;
 
-  /// Whether operator() goes through the vector path.
-  bool vectorised() const { return !masks_.empty(); }
+  /// Whether operator() goes through the vector path for every kind of centre.
+  bool vectorised() const;
 
  private:
   std::size_t kind(const Index3& centre) const;
@@ -58,7 +60,7 @@ class BallScanner {
   const BinaryVolume& volume_;
   Ball ball_;
   std::vector<BallRows> rows_;  ///< by kind(): one for voxels, one an axis for surfels
-  std::vector<std::unique_ptr<class BallMasks>> masks_;
+  std::vector<std::unique_ptr<BallMasks>> masks_;  ///< by kind(); null: plain
 };
 
 }  // namespace dsc
