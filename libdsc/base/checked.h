@@ -29,4 +29,8 @@ inline VertexId checked_id(Index count, const char* what) {
   return static_cast<VertexId>(count);
 }
 
+/// Refuses an allocation that the machine cannot hold: systems grant more memory than there is and
+/// kill the process later, so an allocation alone is no test. \throws LimitError naming `what`.
+void check_allocation(Index bytes, const std::string& what);
+
 }  // namespace dsc

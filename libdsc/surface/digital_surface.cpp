@@ -21,6 +21,7 @@ DigitalSurface& DigitalSurface::operator=(const DigitalSurface& other) {
     mesh_ = std::make_unique<SurfaceMesh>(*other.mesh_);
     corners_ = other.corners_;  // handles are positions in the mesh's list of properties
     surfels_ = other.surfels_;
+    labels_ = other.labels_;
     grid_ = other.grid_;
     adjacency_ = other.adjacency_;
     glue_ = other.glue_;
@@ -38,6 +39,11 @@ std::span<const QuadCorners> DigitalSurface::corners() const {
 std::span<const Surfel> DigitalSurface::surfels() const {
   if (mesh_->n_faces() == 0) return {};
   return {&mesh_->property(surfels_, OpenMesh::FaceHandle(0)), mesh_->n_faces()};
+}
+
+std::span<const LabelPair> DigitalSurface::labels() const {
+  if (mesh_->n_faces() == 0 || !labels_.is_valid()) return {};
+  return {&mesh_->property(labels_, OpenMesh::FaceHandle(0)), mesh_->n_faces()};
 }
 
 Vec3View DigitalSurface::normals() const {

@@ -13,6 +13,7 @@
 #include "libdsc/surface/flat_mesh.h"
 #include "libdsc/surface/surface_mesh.h"
 #include "libdsc/voxels/grid.h"
+#include "libdsc/voxels/label_volume.h"
 
 #include <memory>
 #include <span>
@@ -56,6 +57,8 @@ class DigitalSurface {
   /// Per face: the vertex ids of its corners, its surfel.
   std::span<const QuadCorners> corners() const;
   std::span<const Surfel> surfels() const;
+  /// Per face the labels inside and outside; empty where the surface is not of a label volume.
+  std::span<const LabelPair> labels() const;
 
   /// World position of vertex id v: its pointel.
   Vec3 position(VertexId v) const {
@@ -81,6 +84,7 @@ class DigitalSurface {
   std::unique_ptr<SurfaceMesh> mesh_;  ///< OpenMesh's meshes do not move, they copy
   OpenMesh::FPropHandleT<QuadCorners> corners_;
   OpenMesh::FPropHandleT<Surfel> surfels_;
+  OpenMesh::FPropHandleT<LabelPair> labels_;  ///< invalid where there are none
   Grid grid_;
   Adjacency adjacency_ = Adjacency::interior;
   Glue glue_ = Glue::pointel;

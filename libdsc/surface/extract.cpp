@@ -1,29 +1,36 @@
 #include "libdsc/surface/extract.h"
 
 #include "libdsc/base/parallel.h"
+#include "libdsc/surface/binary_cells.h"
 #include "libdsc/surface/digital_surface.h"
+#include "libdsc/surface/label_cells.h"
 #include "libdsc/surface/surface_builder.h"
 #include "libdsc/surface/surfel_numbering.h"
 #include "libdsc/surface/topology.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace dsc {
 namespace {
 
+using topology::kNoSide;
 using topology::kSideFacing;
 using topology::kStep;
 using topology::SideCode;
 
-/// Fills a builder with the boundary of a voxel set, word after word.
+/// Fills a builder with all surfels of a volume, word after word.
+template <class Cells>
 class Extraction {
  public:
-  Extraction(const BinaryVolume& volume, Adjacency adjacency, const Context& context)
-      : volume_(volume),
+  /// `with_labels`: the faces get the property of their two labels.
+  Extraction(const Cells& cells, Adjacency adjacency, bool with_labels, const Context& context)
+      : cells_(cells),
         adjacency_(adjacency),
-        numbering_(volume, context),
-        builder_(volume.grid(), numbering_.vertices(), numbering_.faces()),
+        numbering_(cells, context),
+        builder_(cells.grid(), numbering_.vertices(), numbering_.faces(), with_labels),
         surfels_(builder_.surfels()),
+        labels_(builder_.labels()),
         corners_(builder_.corners()),
         positions_(builder_.positions()),
         opposite_(builder_.opposite()) {}
@@ -56,8 +63,14 @@ class Extraction {
     int direction;
   };
 
-  bool inside(const Voxel& v) const { return volume_.in_margin(v.x, v.y, v.z); }
+  Label label(const Voxel& v) const { return cells_.label(v.x, v.y, v.z); }
 
+  /// The surfel between v and its neighbour in direction d, from its inner voxel outwards.
+  Cell between(const Voxel& v, int d) const {
+    const Voxel other = v.step(d);
+    return is_inner(label(v), label(other)) ? Cell{v, d}
+                                            : Cell{other, topology::opposite_direction(d)};
+  }
   Index face_id(const Cell& s) const {
     const Voxel q = (s.direction & 1) != 0 ? s.inner.step(s.direction) : s.inner;
     return numbering_.face_id(s.direction >> 1, q.x, q.y, q.z);
@@ -69,20 +82,17 @@ class Extraction {
   /// All cells of word w of row (y, z).
   void word(Index w, Index y, Index z, std::vector<topology::Junction>& junctions) {
     Index vertex = numbering_.first_vertex(w, y, z);
-    for (auto bits = numbering_.pointel_bits(w, y, z); bits != 0; bits &= bits - 1) {
+    for (auto bits = cells_.pointel_bits(w, y, z); bits != 0; bits &= bits - 1) {
       const double x = static_cast<double>(64 * w + std::countr_zero(bits) - 1);
-      const Vec3 p = volume_.grid().position(x - 0.5, static_cast<double>(y) - 0.5,
-                                             static_cast<double>(z) - 0.5);
+      const Vec3 p = cells_.grid().position(x - 0.5, static_cast<double>(y) - 0.5,
+                                            static_cast<double>(z) - 0.5);
       positions_[static_cast<std::size_t>(vertex++)] = {p[0], p[1], p[2]};
     }
     Index face = numbering_.first_face(w, y, z);
     for (int axis = 0; axis < 3; ++axis) {
-      for (auto bits = numbering_.surfel_bits(axis, w, y, z); bits != 0; bits &= bits - 1) {
+      for (auto bits = cells_.surfel_bits(axis, w, y, z); bits != 0; bits &= bits - 1) {
         const Voxel upper{64 * w + std::countr_zero(bits) - 1, y, z};
-        const int direction = inside(upper) ? 2 * axis : 2 * axis + 1;
-        const Voxel inner =
-            inside(upper) ? upper : upper.step(topology::opposite_direction(direction));
-        surfel(face++, {inner, direction}, junctions);
+        surfel(face++, between(upper, 2 * axis), junctions);
       }
     }
   }
@@ -91,6 +101,7 @@ class Extraction {
     const auto f = static_cast<std::size_t>(face);
     surfels_[f] = {static_cast<std::int32_t>(s.inner.x), static_cast<std::int32_t>(s.inner.y),
                    static_cast<std::int32_t>(s.inner.z), s.direction};
+    if (!labels_.empty()) labels_[f] = {label(s.inner), label(s.inner.step(s.direction))};
     for (int i = 0; i < 4; ++i) {
       const auto& o = topology::kCornerOffset[s.direction][i];
       corners_[f][i] = static_cast<VertexId>(
@@ -102,65 +113,101 @@ class Extraction {
     }
   }
 
-  /// The side that this one, of surfel s, facing e, is linked to. Around their linel lie four
-  /// voxels: s's inner and outer one, and the steps of both along e.
+  /// The side that this one, of surfel s, facing e, is linked to: that of the surfel which
+  /// separates the same two labels, and where all four at the linel do, the one that the adjacency
+  /// names. Around the linel lie s's inner and outer voxel and the steps of both along e, and
+  /// between them the surfels: s itself, b beside the inner voxel, c across, d beside the outer
+  /// voxel.
   SideCode link(SideCode self, const Cell& s, int e, std::vector<topology::Junction>& junctions) {
-    const int d = s.direction, back = topology::opposite_direction(e);
-    const Voxel inner_e = s.inner.step(e), outer_e = inner_e.step(d);
-    const bool outer_in = inside(outer_e), inner_in = inside(inner_e);
-    if (inner_in && !outer_in) return side({inner_e, d}, back);
-    if (inner_in) return side({outer_e, back}, topology::opposite_direction(d));
-    if (!outer_in) return side({s.inner, e}, d);
-    const SideCode same_inner = side({s.inner, e}, d);
-    const SideCode same_outer = side({outer_e, back}, topology::opposite_direction(d));
-    const SideCode across = side({outer_e, topology::opposite_direction(d)}, back);
-    if (self < same_inner && self < same_outer && self < across) {
-      junctions.push_back({{self, same_inner, across, same_outer}});
+    const int d = s.direction;
+    const Voxel outer = s.inner.step(d), inner_e = s.inner.step(e), outer_e = outer.step(e);
+    const Label in = label(s.inner), out = label(outer);
+    const Label in_e = label(inner_e), out_e = label(outer_e);
+    const auto side_b = [&] { return side(between(s.inner, e), d); };
+    const auto side_c = [&] { return side(between(inner_e, d), topology::opposite_direction(e)); };
+    const auto side_d = [&] { return side(between(outer, e), topology::opposite_direction(d)); };
+    if (in_e == in && out_e == out) return side_c();
+    const bool has_b = in != in_e, has_c = in_e != out_e, has_d = out != out_e;
+    if (has_b + has_c + has_d > 1) {
+      const SideCode b = has_b ? side_b() : kNoSide;
+      const SideCode c = has_c ? side_c() : kNoSide;
+      const SideCode dd = has_d ? side_d() : kNoSide;
+      const auto after = [&](SideCode other) { return other == kNoSide || self < other; };
+      if (after(b) && after(c) && after(dd)) junctions.push_back({{self, b, c, dd}});
     }
-    return adjacency_ == Adjacency::interior ? same_inner : same_outer;
+    const bool to_b = in_e == out, to_d = out_e == in;
+    if (to_b && to_d) return adjacency_ == Adjacency::interior ? side_b() : side_d();
+    if (to_b) return side_b();
+    return to_d ? side_d() : kNoSide;
   }
 
-  const BinaryVolume& volume_;
+  const Cells& cells_;
   Adjacency adjacency_;
-  SurfelNumbering numbering_;
+  SurfelNumbering<Cells> numbering_;
   SurfaceBuilder builder_;
   std::span<Surfel> surfels_;
+  std::span<LabelPair> labels_;
   std::span<QuadCorners> corners_;
   std::span<OpenMesh::Vec3d> positions_;
   std::vector<SideCode>& opposite_;
 };
 
 /// Which faces the options keep; empty where all are kept.
-std::vector<std::uint8_t> kept_faces(std::span<const Surfel> surfels, const Grid& grid,
+std::vector<std::uint8_t> kept_faces(SurfaceBuilder& builder, const Grid& grid,
                                      const ExtractOptions& options, const Context& context) {
-  if (options.border == Border::closed && !options.part) return {};
+  const auto surfels = builder.surfels();
+  const auto labels = builder.labels();
+  if (options.border == Border::closed && !options.part && options.between.empty()) return {};
+  const auto wanted = [&](const LabelPair& pair) {
+    return std::any_of(options.between.begin(), options.between.end(), [&](const LabelPair& p) {
+      return p == pair || LabelPair{p[1], p[0]} == pair;
+    });
+  };
   std::vector<std::uint8_t> keep(surfels.size());
   parallel_for(context, static_cast<Index>(surfels.size()), 4096, [&](Index first, Index last) {
     for (auto f = static_cast<std::size_t>(first); f < static_cast<std::size_t>(last); ++f) {
       const Surfel& s = surfels[f];
       const auto& step = kStep[s.direction];
-      const bool open = options.border == Border::open &&
-                        !grid.contains(s.x + step[0], s.y + step[1], s.z + step[2]);
-      keep[f] = !open && (!options.part || options.part(s)) ? 1 : 0;
+      if (options.border == Border::open &&
+          !grid.contains(s.x + step[0], s.y + step[1], s.z + step[2])) {
+        continue;
+      }
+      if (!options.between.empty() && !wanted(labels[f])) continue;
+      keep[f] = !options.part || options.part(s) ? 1 : 0;
     }
   });
   return keep;
+}
+
+template <class Cells>
+DigitalSurface extract(const Cells& cells, const ExtractOptions& options, bool with_labels,
+                       const Context& context) {
+  for (const Index n : cells.grid().size) {
+    if (n >= std::numeric_limits<std::int32_t>::max()) {
+      throw LimitError("surface: a volume of " + std::to_string(n) +
+                       " voxels along one axis is beyond 32-bit surfel coordinates");
+    }
+  }
+  SurfaceBuilder builder =
+      Extraction<Cells>(cells, options.adjacency, with_labels, context).run(context);
+  const auto keep = kept_faces(builder, cells.grid(), options, context);
+  if (!keep.empty()) builder = std::move(builder).part(keep, context);
+  return std::move(builder).finish(options.adjacency, options.glue, context);
 }
 
 }  // namespace
 
 DigitalSurface extract_surface(const BinaryVolume& volume, const ExtractOptions& options,
                                const Context& context) {
-  for (const Index n : volume.grid().size) {
-    if (n >= std::numeric_limits<std::int32_t>::max()) {
-      throw LimitError("surface: a volume of " + std::to_string(n) +
-                       " voxels along one axis is beyond 32-bit surfel coordinates");
-    }
+  if (!options.between.empty()) {
+    throw UsageError("surface: interfaces between labels need a label volume");
   }
-  SurfaceBuilder builder = Extraction(volume, options.adjacency, context).run(context);
-  const auto keep = kept_faces(builder.surfels(), volume.grid(), options, context);
-  if (!keep.empty()) builder = std::move(builder).part(keep, context);
-  return std::move(builder).finish(options.adjacency, options.glue, context);
+  return extract(BinaryCells(volume), options, false, context);
+}
+
+DigitalSurface extract_surface(const LabelVolume& volume, const ExtractOptions& options,
+                               const Context& context) {
+  return extract(LabelCells(volume, context), options, true, context);
 }
 
 }  // namespace dsc

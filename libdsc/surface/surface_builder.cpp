@@ -9,11 +9,12 @@
 
 namespace dsc {
 
-SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces) {
+SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels) {
   (void)checked_id(checked_product(8, faces, "surface halfedges"), "surface halfedges");
   (void)checked_id(vertices, "surface vertices");
   surface_.grid_ = grid;
   surface_.vertex_count_ = vertices;
+  if (with_labels) surface_.mesh().add_property(surface_.labels_, property::kLabels);
   surface_.mesh().resize(static_cast<std::size_t>(vertices), 0, static_cast<std::size_t>(faces));
   opposite_.resize(static_cast<std::size_t>(4 * faces));
 }
@@ -22,6 +23,12 @@ std::span<Surfel> SurfaceBuilder::surfels() {
   SurfaceMesh& mesh = surface_.mesh();
   if (mesh.n_faces() == 0) return {};
   return {&mesh.property(surface_.surfels_, OpenMesh::FaceHandle(0)), mesh.n_faces()};
+}
+
+std::span<LabelPair> SurfaceBuilder::labels() {
+  SurfaceMesh& mesh = surface_.mesh();
+  if (mesh.n_faces() == 0 || !surface_.labels_.is_valid()) return {};
+  return {&mesh.property(surface_.labels_, OpenMesh::FaceHandle(0)), mesh.n_faces()};
 }
 
 std::span<QuadCorners> SurfaceBuilder::corners() {

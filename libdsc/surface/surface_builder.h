@@ -22,9 +22,10 @@ namespace dsc {
 class SurfaceBuilder {
  public:
   /// Room for `faces` faces and `vertices` pointels. \throws LimitError beyond 32-bit ids.
-  SurfaceBuilder(const Grid& grid, Index vertices, Index faces);
+  SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels = false);
 
   std::span<Surfel> surfels();
+  std::span<LabelPair> labels();           ///< empty without labels
   std::span<QuadCorners> corners();        ///< pointel ids in [0, vertices)
   std::span<OpenMesh::Vec3d> positions();  ///< world positions of the pointels
   /// Per side code the code of the side that it is linked to, or kNoSide. Symmetric; a side is

@@ -26,6 +26,7 @@ using QuadCorners = std::array<VertexId, 4>;
 namespace property {
 inline constexpr const char* kCorners = "dsc:corners";  ///< face: QuadCorners, the side table
 inline constexpr const char* kSurfel = "dsc:surfel";    ///< face: Surfel
+inline constexpr const char* kLabels = "dsc:labels";    ///< face: LabelPair, of label volumes
 inline constexpr const char* kNormal = "dsc:normal";    ///< face: OpenMesh::Vec3d, u, outwards
 inline constexpr const char* kVertexId =
     "dsc:vertex";  ///< vertex: VertexId, its id in the side table

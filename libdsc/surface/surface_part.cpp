@@ -36,15 +36,17 @@ SurfaceBuilder SurfaceBuilder::part(const std::vector<std::uint8_t>& keep,
     return f < 0 ? kNoSide : topology::side_code(f, s & 3);
   };
 
-  SurfaceBuilder result(surface_.grid(), kept_vertices, kept_faces);
+  SurfaceBuilder result(surface_.grid(), kept_vertices, kept_faces, surface_.labels_.is_valid());
   const auto new_corners = result.corners();
   const auto new_surfels = result.surfels();
+  const auto old_labels = labels(), new_labels = result.labels();
   const auto new_positions = result.positions();
   parallel_for(context, faces, 8192, [&](Index first, Index last) {
     for (auto f = static_cast<std::size_t>(first); f < static_cast<std::size_t>(last); ++f) {
       if (keep[f] == 0) continue;
       const auto g = static_cast<std::size_t>(face_number[f]);
       new_surfels[g] = old_surfels[f];
+      if (!new_labels.empty()) new_labels[g] = old_labels[f];
       for (std::size_t i = 0; i < 4; ++i) {
         new_corners[g][i] = vertex_number[static_cast<std::size_t>(old_corners[f][i])];
         result.opposite_[4 * g + i] = renamed(opposite_[4 * f + i]);
@@ -65,7 +67,13 @@ SurfaceBuilder SurfaceBuilder::part(const std::vector<std::uint8_t>& keep,
       if (j.sides[static_cast<std::size_t>(k)] != kNoSide) present.push_back(k);
     }
     if (present.size() < 2) continue;
-    if (present.size() == 2 && (present[0] + present[1]) % 2 == 1) {
+    const auto pair = [&](int k) {
+      const SideCode s = j.sides[static_cast<std::size_t>(k)];
+      return new_labels.empty() ? LabelPair{}
+                                : new_labels[static_cast<std::size_t>(topology::face_of(s))];
+    };
+    if (present.size() == 2 && (present[0] + present[1]) % 2 == 1 &&
+        pair(present[0]) == pair(present[1])) {
       // An ordinary edge of the part: the two run opposite ways along the linel.
       const SideCode a = j.sides[static_cast<std::size_t>(present[0])];
       const SideCode b = j.sides[static_cast<std::size_t>(present[1])];

@@ -2,16 +2,19 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/parallel.h"
+#include "libdsc/surface/binary_cells.h"
+#include "libdsc/surface/label_cells.h"
 
 #include <limits>
 #include <new>
 
 namespace dsc {
 
-SurfelNumbering::SurfelNumbering(const BinaryVolume& volume, const Context& context)
-    : volume_(volume) {
-  const Index3 size = volume.grid().size;
-  words_ = volume.words_per_row();
+template <class Cells>
+SurfelNumbering<Cells>::SurfelNumbering(const Cells& cells, const Context& context)
+    : cells_(cells) {
+  const Index3 size = cells.grid().size;
+  words_ = cells.words();
   rows_ = size[1] + 1;
   const Index slices = size[2] + 1;
   slice_ = static_cast<std::size_t>(words_ * rows_);
@@ -28,10 +31,11 @@ SurfelNumbering::SurfelNumbering(const BinaryVolume& volume, const Context& cont
     for (Index w = 0; w < words_; ++w) {
       for (Index y = 0; y < rows_; ++y, ++slot) {
         *slot = {static_cast<std::uint32_t>(faces), static_cast<std::uint32_t>(vertices)};
-        const Word pointels = pointel_bits(w, y, z);
+        const Word pointels = cells_.pointel_bits(w, y, z);
         if (pointels == 0) continue;
         vertices += std::popcount(pointels);
-        for (int axis = 0; axis < 3; ++axis) faces += std::popcount(surfel_bits(axis, w, y, z));
+        for (int axis = 0; axis < 3; ++axis)
+          faces += std::popcount(cells_.surfel_bits(axis, w, y, z));
       }
     }
     if (faces > std::numeric_limits<VertexId>::max()) {
@@ -49,5 +53,8 @@ SurfelNumbering::SurfelNumbering(const BinaryVolume& volume, const Context& cont
   // Four sides a face, two halfedges a side, all numbered by int.
   (void)checked_id(checked_product(8, face_base_.back(), "surface halfedges"), "surface halfedges");
 }
+
+template class SurfelNumbering<BinaryCells>;
+template class SurfelNumbering<LabelCells>;
 
 }  // namespace dsc

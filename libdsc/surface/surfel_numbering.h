@@ -1,15 +1,12 @@
 /// \file
-/// Numbers for the surfels and pointels of a binary volume, found by counting bits.
+/// Numbers for the surfels and pointels of a volume, found by counting bits.
 ///
-/// Every cell (surfel, pointel) belongs to the bit of its low corner: the surfel across `axis` that
-/// has voxel q on its upper side belongs to q, and so does the pointel at q's low corner. The cells
-/// of one word of 64 voxels are numbered one after another, so the number of a cell is the count
+/// Every cell (surfel, pointel) belongs to the bit of its low corner (binary_cells.h). The cells of
+/// one word of 64 voxels are numbered one after another, so the number of a cell is the count
 /// before its word plus a population count: no hash and no search.
 #pragma once
 
 #include "libdsc/base/context.h"
-#include "libdsc/surface/surfel.h"
-#include "libdsc/voxels/binary_volume.h"
 
 #include <bit>
 #include <cstdint>
@@ -17,13 +14,15 @@
 
 namespace dsc {
 
+/// `Cells` is BinaryCells or LabelCells.
+template <class Cells>
 class SurfelNumbering {
  public:
-  using Word = BinaryVolume::Word;
+  using Word = typename Cells::Word;
 
-  /// Counts all cells, in parallel over z. `volume` must outlive this.
+  /// Counts all cells, in parallel over z. `cells` must outlive this.
   /// \throws LimitError where ids pass 32 bits.
-  SurfelNumbering(const BinaryVolume& volume, const Context& context);
+  SurfelNumbering(const Cells& cells, const Context& context);
 
   Index faces() const { return face_base_.back(); }
   Index vertices() const { return vertex_base_.back(); }
@@ -47,39 +46,18 @@ class SurfelNumbering {
     return vertex_base_[static_cast<std::size_t>(z)] + slots_[slot_of(w, y, z)].vertices;
   }
 
-  /// Bits of the surfels across `axis`, and of the pointels, that belong to word w of row (y, z).
-  Word surfel_bits(int axis, Index w, Index y, Index z) const {
-    const Word here = volume_.word(w, y, z);
-    switch (axis) {
-      case 0:
-        return here ^ shifted(here, w, y, z);
-      case 1:
-        return here ^ volume_.word(w, y - 1, z);
-      default:
-        return here ^ volume_.word(w, y, z - 1);
-    }
-  }
-  Word pointel_bits(Index w, Index y, Index z) const {
-    const Word a = volume_.word(w, y, z), b = volume_.word(w, y - 1, z);
-    const Word c = volume_.word(w, y, z - 1), d = volume_.word(w, y - 1, z - 1);
-    const Word some = a | b | c | d, all = a & b & c & d;
-    const Word some_before = some << 1 | (w > 0 ? top(w, y, z, false) : 0);
-    const Word all_before = all << 1 | (w > 0 ? top(w, y, z, true) : 0);
-    return (some | some_before) & ~(all & all_before);
-  }
-
   /// The number of the surfel between voxel q = (x, y, z) and its lower neighbour along `axis`.
   /// Precondition: that surfel exists.
   Index face_id(int axis, Index x, Index y, Index z) const {
     const Index bit = x + 1, w = bit >> 6;
     Index id = first_face(w, y, z);
-    for (int a = 0; a < axis; ++a) id += std::popcount(surfel_bits(a, w, y, z));
-    return id + std::popcount(surfel_bits(axis, w, y, z) & below(bit));
+    for (int a = 0; a < axis; ++a) id += std::popcount(cells_.surfel_bits(a, w, y, z));
+    return id + std::popcount(cells_.surfel_bits(axis, w, y, z) & below(bit));
   }
   /// The number of the pointel (x, y, z). Precondition: it exists.
   Index vertex_id(Index x, Index y, Index z) const {
     const Index bit = x + 1, w = bit >> 6;
-    return first_vertex(w, y, z) + std::popcount(pointel_bits(w, y, z) & below(bit));
+    return first_vertex(w, y, z) + std::popcount(cells_.pointel_bits(w, y, z) & below(bit));
   }
 
  private:
@@ -87,20 +65,11 @@ class SurfelNumbering {
     std::uint32_t faces, vertices;
   };
   static Word below(Index bit) { return (Word{1} << (bit & 63)) - 1; }
-  Word shifted(Word here, Index w, Index y, Index z) const {
-    return here << 1 | (w > 0 ? volume_.word(w - 1, y, z) >> 63 : 0);
-  }
-  /// The last bit of the word before, of the four rows' union or intersection.
-  Word top(Index w, Index y, Index z, bool all) const {
-    const Word a = volume_.word(w - 1, y, z), b = volume_.word(w - 1, y - 1, z);
-    const Word c = volume_.word(w - 1, y, z - 1), d = volume_.word(w - 1, y - 1, z - 1);
-    return (all ? (a & b & c & d) : (a | b | c | d)) >> 63;
-  }
   std::size_t slot_of(Index w, Index y, Index z) const {
     return static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(w * rows_ + y);
   }
 
-  const BinaryVolume& volume_;
+  const Cells& cells_;
   Index words_, rows_;
   std::size_t slice_;                           ///< slots a slice
   std::vector<Counts> slots_;                   ///< cells before this slot, within its slice

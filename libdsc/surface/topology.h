@@ -67,9 +67,9 @@ inline constexpr auto kCornerOffset = [] {
 }();
 
 /// The surfels that meet at a linel that is no ordinary edge: more than two, or two that cannot be
-/// linked. In the order a, b, c, d around the linel, absent ones kNoSide; where all four are there,
-/// (a, b) and (c, d) share their inner voxel, (a, d) and (c, b) their outer one. a and c run along
-/// the linel one way, b and d the other.
+/// linked. In the order a, b, c, d around the linel, absent ones kNoSide. Where all four separate
+/// the same two labels, (a, b) and (c, d) share their inner voxel, (a, d) and (c, b) their outer
+/// one, and a and c run along the linel one way, b and d the other.
 struct Junction {
   std::array<SideCode, 4> sides;
 };

@@ -6,6 +6,8 @@
 #include "libdsc/base/checked.h"
 #include "libdsc/base/types.h"
 
+#include <string>
+
 namespace dsc {
 
 struct Grid {
@@ -13,6 +15,12 @@ struct Grid {
   Vec3 spacing{1., 1., 1.};  ///< edge lengths of a voxel, world units, all > 0
   Vec3 origin{0., 0., 0.};   ///< world position of the centre of voxel (0, 0, 0)
 
+  /// \throws InputError on a negative size, a spacing that is not positive and finite, or an origin
+  /// that is not finite; LimitError where an axis is longer than 2^40
+  /// voxels or all voxels overflow 64 bits.
+  void check() const;
+  /// "512 x 512 x 300 voxels".
+  std::string text() const;
   /// \throws LimitError on overflow.
   Index voxels() const {
     return checked_product(checked_product(size[0], size[1], "voxels"), size[2], "voxels");

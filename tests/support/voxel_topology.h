@@ -83,9 +83,25 @@ inline Cell shifted(Cell c, int axis, int by) {
 inline bool odd(const Cell& c, int axis) { return (c[static_cast<std::size_t>(axis)] & 1) != 0; }
 inline int normal_axis(const Cell& surfel) { return !odd(surfel, 0) ? 0 : !odd(surfel, 1) ? 1 : 2; }
 
-/// Whether the voxel at an odd cell is inside.
-inline bool voxel_at(const BinaryVolume& volume, const Cell& c) {
+/// The label of the voxel at an odd cell; of a binary volume 1 or 0.
+template <class Volume>
+Label voxel_at(const Volume& volume, const Cell& c) {
   return volume((c[0] - 1) >> 1, (c[1] - 1) >> 1, (c[2] - 1) >> 1);
+}
+
+/// The voxel on the inside of a surfel, or on its outside: inside is the smaller label but 0.
+template <class Volume>
+Cell voxel_beside(const Volume& volume, const Cell& s, bool inner) {
+  const int axis = normal_axis(s);
+  const Cell up = shifted(s, axis, 1), down = shifted(s, axis, -1);
+  const Label a = voxel_at(volume, up), b = voxel_at(volume, down);
+  const bool up_inside = b == 0 || (a != 0 && a < b);
+  return up_inside == inner ? up : down;
+}
+template <class Volume>
+std::array<Label, 2> labels_of(const Volume& volume, const Cell& s) {
+  return {voxel_at(volume, voxel_beside(volume, s, true)),
+          voxel_at(volume, voxel_beside(volume, s, false))};
 }
 
 /// The number of classes of `items` under the symmetric relation `linked`, closed transitively.
@@ -112,24 +128,28 @@ Index class_count(const Around& items, const Linked& linked) {
   return classes;
 }
 
-/// Whether two of a linel's surfels are linked. Where two are there: unless they lie in one plane
-/// and face opposite ways. Where more are: if they share the voxel that the adjacency names.
-inline bool linked_at(const BinaryVolume& volume, Adjacency adjacency, const Around& around,
-                      const Cell& s, const Cell& r) {
+/// Whether two of a linel's surfels are linked: never where they separate different labels; where
+/// they are the only two that separate theirs, unless they lie in one plane and face opposite ways;
+/// where more do, if they share the voxel that the adjacency names.
+template <class Volume>
+bool linked_at(const Volume& volume, Adjacency adjacency, const Around& around, const Cell& s,
+               const Cell& r) {
+  const auto pair = labels_of(volume, s);
+  if (pair != labels_of(volume, r)) return false;
+  const auto alike = std::count_if(around.begin(), around.end(),
+                                   [&](const Cell& c) { return labels_of(volume, c) == pair; });
   const int a = normal_axis(s), b = normal_axis(r);
-  if (around.size() == 2) {
+  if (alike == 2) {
     return a != b || voxel_at(volume, shifted(s, a, 1)) == voxel_at(volume, shifted(r, b, 1));
   }
   const bool inner = adjacency == Adjacency::interior;
-  const auto side = [&](const Cell& c, int axis) {
-    return shifted(c, axis, voxel_at(volume, shifted(c, axis, 1)) == inner ? 1 : -1);
-  };
-  return side(s, a) == side(r, b);
+  return voxel_beside(volume, s, inner) == voxel_beside(volume, r, inner);
 }
 
 /// `kept`, where given, says which surfels (by their cell) belong to the part.
-inline VoxelTopology voxel_topology(const BinaryVolume& volume, Adjacency adjacency,
-                                    const std::function<bool(const Cell&)>& kept = {}) {
+template <class Volume>
+VoxelTopology voxel_topology(const Volume& volume, Adjacency adjacency,
+                             const std::function<bool(const Cell&)>& kept = {}) {
   const Index3 n = volume.grid().size;
   VoxelTopology t(n);
   for (int axis = 0; axis < 3; ++axis) {
@@ -139,8 +159,8 @@ inline VoxelTopology voxel_topology(const BinaryVolume& volume, Adjacency adjace
       for (int j = 0; j < last[1]; ++j) {
         for (int i = 0; i < last[0]; ++i) {
           const Cell s = shifted({2 * i + 1, 2 * j + 1, 2 * k + 1}, axis, -1);
-          const bool above = voxel_at(volume, shifted(s, axis, 1));
-          const bool below = voxel_at(volume, shifted(s, axis, -1));
+          const Label above = voxel_at(volume, shifted(s, axis, 1));
+          const Label below = voxel_at(volume, shifted(s, axis, -1));
           if (above != below && (!kept || kept(s))) t.surfels.push_back(s);
         }
       }
