@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/normals/ball_masks.h"
+#include "libdsc/normals/row_sums.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,17 +11,6 @@ namespace dsc {
 namespace {
 
 __extension__ using Wide = __int128;
-
-struct RowSums {
-  Index count = 0, first = 0, second = 0;
-};
-
-/// Adds the run of `n` voxels at dx = start, start + 2, ….
-void add_run(RowSums& sums, Index start, Index n) {
-  sums.count += n;
-  sums.first += n * (start + n - 1);
-  sums.second += n * start * start + 2 * start * n * (n - 1) + 2 * (n - 1) * n * (2 * n - 1) / 3;
-}
 
 /// The voxels x in [low, high] of row (y, z), all within the grid, relative to doubled cx.
 RowSums scan_row(const BinaryVolume& volume, Index low, Index high, Index y, Index z, Index cx) {
@@ -112,16 +102,7 @@ BallMoments BallScanner::plain(const Index3& centre) const {
       const Index high = std::min((centre[0] + extent) >> 1, size[0] - 1);
       if (low > high) continue;
       const RowSums row = scan_row(volume_, low, high, y, z, centre[0]);
-      m.count += row.count;
-      m.first[0] += row.first;
-      m.first[1] += dy * row.count;
-      m.first[2] += dz * row.count;
-      m.second[0] += row.second;
-      m.second[1] += dy * dy * row.count;
-      m.second[2] += dz * dz * row.count;
-      m.second[3] += dy * row.first;
-      m.second[4] += dz * row.first;
-      m.second[5] += dy * dz * row.count;
+      add_row(m, row, dy, dz);
     }
   }
   return m;

@@ -2,27 +2,12 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/parallel.h"
-#include "libdsc/normals/smallest_eigenvector.h"
-
-#include <cmath>
+#include "libdsc/normals/flattest_direction.h"
 
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 256;          // balls a chunk: well below a second even for large ones
-constexpr double kRightAngle = 1e-10;  // |cos| below which the orientation is rounding
-
-/// u of one surfel, or zero where the balls do not tell.
-Vec3 flattest_direction(std::span<const BallMoments> balls, const Vec3& spacing,
-                        const Vec3& outward) {
-  Mat3 v = Mat3::Zero();
-  for (const BallMoments& ball : balls) v += covariance(ball, spacing);  // the scale is immaterial
-  const SmallestEigenvector smallest = smallest_eigenvector(v);
-  if (!smallest.unique) return Vec3::Zero();
-  const double cosine = smallest.u.dot(outward);
-  if (std::abs(cosine) < kRightAngle) return Vec3::Zero();
-  return cosine > 0 ? smallest.u : Vec3(-smallest.u);
-}
+constexpr Index kGrain = 256;  // balls a chunk: well below a second even for large ones
 
 }  // namespace
 
@@ -64,23 +49,12 @@ NormalField integral_invariant_normals(const BinaryVolume& volume, std::span<con
   visit_balls(
       volume, surfels, options,
       [&](Index i, std::span<const BallMoments> balls) {
-        const Vec3 outward = surfels[static_cast<std::size_t>(i)].normal();
-        field.u.col(i) = flattest_direction(balls, spacing, outward);
+        Mat3 v = Mat3::Zero();  // of a pair the sum: the scale is immaterial
+        for (const BallMoments& ball : balls) v += covariance(ball, spacing);
+        field.u.col(i) = flattest_direction(v, surfels[static_cast<std::size_t>(i)].normal());
       },
       context);
-  // A second pass replaces and counts: visitors share no counter.
-  field.fallbacks = parallel_reduce(
-      context, n, 1 << 16, Index{0},
-      [&](Index first, Index last) {
-        Index count = 0;
-        for (Index i = first; i < last; ++i) {
-          if (!field.u.col(i).isZero(0)) continue;
-          field.u.col(i) = surfels[static_cast<std::size_t>(i)].normal();
-          ++count;
-        }
-        return count;
-      },
-      [](Index a, Index b) { return a + b; });
+  fall_back(field, surfels, context);  // a second pass: visitors share no counter
   return field;
 }
 

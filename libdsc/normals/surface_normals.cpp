@@ -8,7 +8,14 @@ namespace {
 
 NormalReport write(DigitalSurface& surface, const NormalField& field) {
   surface.set_normals(field.u);
-  return {field.fallbacks, field.radius};
+  return {field.fallbacks, field.radius, 0};
+}
+
+void check_grid(const DigitalSurface& surface, const Grid& grid) {
+  if (surface.grid().size != grid.size || surface.grid().spacing != grid.spacing) {
+    throw UsageError(
+        "normals: the surface comes from another volume; pass the one it was extracted from");
+  }
 }
 
 }  // namespace
@@ -16,13 +23,22 @@ NormalReport write(DigitalSurface& surface, const NormalField& field) {
 NormalReport integral_invariant_normals(DigitalSurface& surface, const BinaryVolume& volume,
                                         const IntegralInvariantOptions& options,
                                         const Context& context) {
-  const Grid& a = surface.grid();
-  const Grid& b = volume.grid();
-  if (a.size != b.size || a.spacing != b.spacing) {
-    throw UsageError(
-        "normals: the surface comes from another volume; pass the one it was extracted from");
-  }
+  check_grid(surface, volume.grid());
   return write(surface, integral_invariant_normals(volume, surface.surfels(), options, context));
+}
+
+NormalReport integral_invariant_normals(DigitalSurface& surface, const LabelVolume& volume,
+                                        const IntegralInvariantOptions& options,
+                                        const Context& context) {
+  check_grid(surface, volume.grid());
+  if (surface.labels().empty() && surface.face_count() > 0) {
+    throw UsageError("normals: the surface has no labels; extract it from the label volume");
+  }
+  const InterfaceNormals field =
+      integral_invariant_normals(volume, surface.surfels(), surface.labels(), options, context);
+  NormalReport report = write(surface, field);
+  report.third_label_faces = field.third_label_faces;
+  return report;
 }
 
 NormalReport trivial_normals(DigitalSurface& surface, const Context& context) {

@@ -6,6 +6,7 @@
 
 #include "libdsc/normals/analytic.h"
 #include "libdsc/normals/integral_invariant.h"
+#include "libdsc/normals/label_invariant.h"
 #include "libdsc/normals/trivial.h"
 
 namespace dsc {
@@ -14,13 +15,19 @@ class DigitalSurface;
 
 /// What was written; the normals themselves are surface.normals().
 struct NormalReport {
-  Index fallbacks = 0;  ///< faces that kept their own normal
-  double radius = 0;    ///< world radius of the ball; 0 where the estimator has none
+  Index fallbacks = 0;          ///< faces that kept their own normal
+  double radius = 0;            ///< world radius of the ball; 0 where the estimator has none
+  Index third_label_faces = 0;  ///< of label volumes: faces whose ball meets a third label
 };
 
 /// `volume` is the one that the surface was extracted from. \throws UsageError where its grid has
 /// another size or spacing; otherwise as on surfels.
 NormalReport integral_invariant_normals(DigitalSurface& surface, const BinaryVolume& volume,
+                                        const IntegralInvariantOptions& options,
+                                        const Context& context = {});
+
+/// For surfaces of label volumes. \throws UsageError also where the surface has no labels.
+NormalReport integral_invariant_normals(DigitalSurface& surface, const LabelVolume& volume,
                                         const IntegralInvariantOptions& options,
                                         const Context& context = {});
 
