@@ -68,7 +68,7 @@ DirichletSolver::DirichletSolver(const SparseMatrix& A, std::span<const VertexId
   }
   reduced.makeCompressed();
   coupling_.makeCompressed();
-  solver_ = factory(std::move(reduced), options, context);
+  solver_ = make_solver(factory, std::move(reduced), options, context);
 }
 
 Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const {

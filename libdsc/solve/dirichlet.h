@@ -22,7 +22,7 @@ class DirichletSolver {
   /// [0, n); SolverError where a component of A with a kernel has no fixed vertex.
   DirichletSolver(const SparseMatrix& A, std::span<const VertexId> fixed,
                   const SolverOptions& options = {}, const Context& context = {},
-                  const SpdSolverFactory& factory = make_spd_solver);
+                  const SpdSolverFactory& factory = {});
 
   /// `b` and `values` have n entries; x equals `values` at the fixed vertices, exactly, and A x = b
   /// at all others. `values` at free vertices is the first guess of iterative methods. The residual
@@ -43,7 +43,7 @@ class DirichletSolver {
 class NeumannSolver {
  public:
   NeumannSolver(const SparseMatrix& A, Components components, const SolverOptions& options = {},
-                const Context& context = {}, const SpdSolverFactory& factory = make_spd_solver);
+                const Context& context = {}, const SpdSolverFactory& factory = {});
 
   /// `b` has n entries whose sum vanishes on each component, up to 1e-9 of the sum of |b| there.
   /// `weights` (empty: all 1; else n positive ones, such as M0) define the mean that is made zero.

@@ -11,9 +11,9 @@
 namespace dsc {
 namespace {
 
-void check_length(const Eigen::VectorXd& v, Index n, const char* what) {
-  if (v.size() != n) {
-    throw UsageError("solve: the " + std::string(what) + " has " + std::to_string(v.size()) +
+void check_length(Index length, Index n, const char* what) {
+  if (length != n) {
+    throw UsageError("solve: the " + std::string(what) + " has " + std::to_string(length) +
                      " entries, the matrix " + std::to_string(n) + " rows");
   }
 }
@@ -36,13 +36,13 @@ SpdSolver::SpdSolver(SparseMatrix A, const SolverOptions& options)
 }
 
 Solution SpdSolver::solve(const Eigen::VectorXd& b) const {
-  check_length(b, size(), "right-hand side");
+  check_length(b.size(), size(), "right-hand side");
   return finish(b, Eigen::VectorXd::Zero(size()));
 }
 
 Solution SpdSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const {
-  check_length(b, size(), "right-hand side");
-  check_length(guess, size(), "first guess");
+  check_length(b.size(), size(), "right-hand side");
+  check_length(guess.size(), size(), "first guess");
   if (!guess.allFinite()) throw SolverError("solve: the first guess is not finite");
   return finish(b, guess);
 }
@@ -81,15 +81,43 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
   return s;
 }
 
+WideVector SpdSolver::solve_wide(const WideVector& b) const {
+  check_length(b.size(), size(), "right-hand side");
+  bool any = false;
+  std::int32_t top = 0;
+  for (Index i = 0; i < size(); ++i) {
+    if (b.mantissa(i) == 0) continue;
+    top = any ? std::max(top, b.exponent(i)) : b.exponent(i);
+    any = true;
+  }
+  Eigen::VectorXd scaled(size());
+  for (Index i = 0; i < size(); ++i) scaled[i] = b.relative_to(i, top);
+  const Eigen::VectorXd x = solve(scaled).x;
+  WideVector result(size());
+  for (Index i = 0; i < size(); ++i) {
+    Wide w{std::abs(x[i]) < 1e-290 ? 0. : x[i], top};  // below, digits are missing
+    w.normalise();
+    result.set(i, w);
+  }
+  return result;
+}
+
 std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options,
                                            const Context& context) {
   switch (options.method) {
+    case SolverMethod::automatic:
     case SolverMethod::ldlt:
       return make_ldlt_solver(std::move(A), options, context);
     case SolverMethod::multigrid:
       break;
   }
   throw UsageError("solver: this method is not available");
+}
+
+std::unique_ptr<SpdSolver> make_solver(const SpdSolverFactory& factory, SparseMatrix A,
+                                       const SolverOptions& options, const Context& context) {
+  return factory ? factory(std::move(A), options, context)
+                 : make_spd_solver(std::move(A), options, context);
 }
 
 }  // namespace dsc

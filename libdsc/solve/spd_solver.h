@@ -10,6 +10,7 @@
 
 #include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
+#include "libdsc/solve/wide_vector.h"
 
 #include <functional>
 #include <memory>
@@ -24,9 +25,13 @@ struct Solution {
 };
 
 enum class SolverMethod {
+  automatic,  ///< ldlt up to kDirectLimit unknowns, then multigrid
   ldlt,       ///< sparse L D Lᵀ with a nested dissection order: exact, reusable
   multigrid,  ///< conjugate gradients preconditioned by multigrid: linear memory
 };
+
+/// From here on a direct factorization of a surface's Laplacian costs more than iterating.
+inline constexpr Index kDirectLimit = 150000;
 
 struct SolverOptions {
   SolverMethod method = SolverMethod::ldlt;
@@ -49,6 +54,12 @@ class SpdSolver {
   Solution solve(const Eigen::VectorXd& b) const;
   /// The same from a first guess: iterative methods only solve for what it leaves.
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const;
+
+  /// A x = b where x spans more than double's range, for heat far from its source. The residual of
+  /// the largest entries says nothing about the others, so it is the caller who checks. This
+  /// default solves in doubles and gives 0 where that loses the value; the LDLT solver's own does
+  /// not.
+  virtual WideVector solve_wide(const WideVector& b) const;
 
  protected:
   /// \throws UsageError unless `A` is square and the tolerance in (0, 1); SolverError where an
@@ -79,5 +90,9 @@ std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& 
 /// target dsc::cholmod, or the caller's own.
 using SpdSolverFactory = std::function<std::unique_ptr<SpdSolver>(
     SparseMatrix A, const SolverOptions& options, const Context& context)>;
+
+/// `factory`'s solver, make_spd_solver's where it is empty.
+std::unique_ptr<SpdSolver> make_solver(const SpdSolverFactory& factory, SparseMatrix A,
+                                       const SolverOptions& options, const Context& context);
 
 }  // namespace dsc

@@ -1,0 +1,54 @@
+/// \file
+/// Heat diffusion on a surface: one implicit Euler step, (M0 - t L) u = M0 u0.
+///
+/// Heat is conserved, Σ M0 u = Σ M0 u0; constants stay; u tends to the mean of each component as t
+/// grows. A vertex that no face uses keeps its value.
+#pragma once
+
+#include "libdsc/calculus/options.h"
+#include "libdsc/solve/spd_solver.h"
+#include "libdsc/surface/flat_mesh.h"
+
+namespace dsc {
+
+struct LaplaceSystem;
+
+/// M0 - t L of an assembled system, symmetric positive definite; rows of vertices without faces get
+/// a 1 on the diagonal. \throws UsageError unless t > 0 and finite.
+SparseMatrix heat_matrix(const LaplaceSystem& system, double t);
+
+struct DiffusionOptions {
+  CalculusOptions calculus;
+  SolverOptions solver;
+  SpdSolverFactory factory;  ///< empty: make_spd_solver
+};
+
+/// Factorizes once for a surface and a time step, then takes any number of steps.
+class HeatDiffusion {
+ public:
+  /// `t` > 0 in units of length squared. \throws UsageError on another t, and as assemble_laplacian
+  /// and make_spd_solver do. The mesh is not needed afterwards.
+  HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOptions& options = {},
+                const Context& context = {});
+
+  /// One step from `u0`, V values. Several steps: call it again on the result.
+  /// \throws UsageError on another length, SolverError where u0 is not finite.
+  Solution step(const Eigen::VectorXd& u0) const;
+
+  double time() const { return time_; }
+  const Eigen::VectorXd& mass() const { return mass_; }  ///< the diagonal of M0
+  Index clamped_faces() const { return clamped_faces_; }
+
+ private:
+  double time_;
+  Eigen::VectorXd mass_;
+  Eigen::VectorXd weight_;  ///< mass, but 1 at vertices without faces
+  Index clamped_faces_ = 0;
+  std::unique_ptr<SpdSolver> solver_;
+};
+
+/// The same for a single step.
+Solution diffuse(const FlatMesh& mesh, const Eigen::VectorXd& u0, double t,
+                 const DiffusionOptions& options = {}, const Context& context = {});
+
+}  // namespace dsc

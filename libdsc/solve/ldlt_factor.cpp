@@ -1,0 +1,146 @@
+#include "libdsc/solve/ldlt_factor.h"
+
+#include "libdsc/base/error.h"
+
+#include <iostream>  // which Eigen/MetisSupport forgets
+
+#include <Eigen/MetisSupport>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+
+#include <limits>
+#include <mutex>
+#include <new>
+#include <string>
+
+namespace dsc {
+namespace {
+
+/// METIS draws from the C library's one random sequence, which it seeds anew at each call: one call
+/// at a time, so that the order, and with it every bit of the solution, is always the same.
+template <FillOrder kOrder>
+struct Order {
+  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+
+  template <class Matrix>
+  void operator()(const Matrix& A, PermutationType& order) const {
+    // METIS gains nothing on small systems, and wants a graph with edges.
+    if (kOrder == FillOrder::minimum_degree || A.cols() < 1000 || A.nonZeros() < 2 * A.cols()) {
+      Eigen::AMDOrdering<int>()(A, order);
+      return;
+    }
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    Eigen::MetisOrdering<int>()(A, order);
+    if (order.size() != A.cols()) throw LimitError("METIS found no order: out of memory");
+  }
+};
+
+/// The factor in the form that the solves read.
+struct View {
+  Index n = 0;
+  const int* start = nullptr;  ///< of each column of L, in rows and values
+  const int* rows = nullptr;
+  const double* values = nullptr;
+  const double* diagonal = nullptr;
+  const int* old_of_new = nullptr;  ///< null: the order of A
+};
+
+[[noreturn]] void fail(Index n) {
+  throw SolverError("LDLT: the matrix of " + std::to_string(n) +
+                    " unknowns is singular or indefinite; a Laplacian needs a fixed vertex in each "
+                    "connected component");
+}
+
+}  // namespace
+
+struct LdltFactor::Data {
+  virtual ~Data() = default;
+  virtual Eigen::VectorXd solve(const Eigen::VectorXd& b) const = 0;
+  View view;
+  Eigen::VectorXd diagonal;
+};
+
+namespace {
+
+template <FillOrder kOrder, class Base>
+struct Factor final : Base {
+  explicit Factor(const SparseMatrix& A) {
+    const Index n = A.rows();
+    try {
+      ldlt.compute(A);
+    } catch (const std::bad_alloc&) {
+      throw LimitError("LDLT: the factor of " + std::to_string(n) +
+                       " unknowns does not fit in memory; use an iterative method");
+    }
+    if (ldlt.info() != Eigen::Success) fail(n);
+    this->diagonal = ldlt.vectorD();
+    const auto& L = ldlt.matrixL().nestedExpression();
+    const auto& order = ldlt.permutationPinv().indices();
+    this->view = {n,
+                  L.outerIndexPtr(),
+                  L.innerIndexPtr(),
+                  L.valuePtr(),
+                  this->diagonal.data(),
+                  order.size() > 0 ? order.data() : nullptr};
+    const Eigen::VectorXd a = A.diagonal();
+    const double rounding = static_cast<double>(n + 10) * std::numeric_limits<double>::epsilon();
+    for (Index k = 0; k < n; ++k) {
+      const Index old = this->view.old_of_new != nullptr ? this->view.old_of_new[k] : k;
+      if (!(this->diagonal[k] > rounding * a[old])) fail(n);
+    }
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const override { return ldlt.solve(b); }
+
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Order<kOrder>> ldlt;
+};
+
+}  // namespace
+
+LdltFactor::LdltFactor(const SparseMatrix& A, FillOrder order) {
+  if (A.rows() == 0) return;
+  if (order == FillOrder::nested_dissection) {
+    data_ = std::make_unique<Factor<FillOrder::nested_dissection, Data>>(A);
+  } else {
+    data_ = std::make_unique<Factor<FillOrder::minimum_degree, Data>>(A);
+  }
+}
+LdltFactor::~LdltFactor() = default;
+LdltFactor::LdltFactor(LdltFactor&&) noexcept = default;
+LdltFactor& LdltFactor::operator=(LdltFactor&&) noexcept = default;
+
+Index LdltFactor::size() const { return data_ ? data_->view.n : 0; }
+Index LdltFactor::fill() const { return data_ ? data_->view.start[data_->view.n] : 0; }
+
+Eigen::VectorXd LdltFactor::solve(const Eigen::VectorXd& b) const {
+  return data_ ? data_->solve(b) : b;
+}
+
+void LdltFactor::solve_in_place(WideVector& b) const {
+  if (!data_) return;
+  const View& f = data_->view;
+  std::vector<Wide> x(static_cast<std::size_t>(f.n));
+  const auto old = [&](Index k) { return f.old_of_new != nullptr ? f.old_of_new[k] : k; };
+  for (Index k = 0; k < f.n; ++k) x[static_cast<std::size_t>(k)] = b[old(k)];
+  for (Index k = 0; k < f.n; ++k) {
+    Wide& xk = x[static_cast<std::size_t>(k)];
+    if (xk.mantissa == 0) continue;
+    xk.normalise();
+    for (int p = f.start[k]; p < f.start[k + 1]; ++p) {
+      x[static_cast<std::size_t>(f.rows[p])].add(-f.values[p] * xk.mantissa, xk.exponent);
+    }
+  }
+  for (Index k = f.n - 1; k >= 0; --k) {
+    Wide xk = x[static_cast<std::size_t>(k)];
+    xk.mantissa /= f.diagonal[k];
+    for (int p = f.start[k]; p < f.start[k + 1]; ++p) {
+      const Wide& xi = x[static_cast<std::size_t>(f.rows[p])];
+      xk.add(-f.values[p] * xi.mantissa, xi.exponent);
+    }
+    xk.normalise();
+    x[static_cast<std::size_t>(k)] = xk;
+  }
+  for (Index k = 0; k < f.n; ++k) b.set(old(k), x[static_cast<std::size_t>(k)]);
+}
+
+}  // namespace dsc
