@@ -56,7 +56,7 @@ SparseMatrix hold(const SparseMatrix& A, std::span<const char> fixed) {
 }
 
 /// The direct diffusion for one t, without and, where wanted, with w = 0 on the boundary.
-struct DirectHeat {
+struct DirectHeat {  // empty where bands are followed
   SparseMatrix A;
   std::unique_ptr<SpdSolver> reflected;
   std::unique_ptr<SpdSolver> absorbed;
@@ -255,7 +255,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
 
   context.check();
   context.begin("distance");
-  HeatDirections directions = heat_directions(d.mesh, w, d.options.calculus, context);
+  HeatDirections directions = heat_directions(d.mesh, w, report.time, d.options.calculus, context);
   report.flat_faces = directions.flat_faces;
   const Eigen::VectorXd divergence =
       integrated_divergence(d.mesh, directions.d, d.options.calculus, context);
@@ -269,7 +269,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
   report.poisson_residual = phi.relative_residual;
   report.poisson_iterations = phi.iterations;
   result.distance = std::move(phi.x);
-  anchor_sources(result.distance, d.system.L, w, sources);
+  anchor_sources(result.distance, d.heat, w, sources);
 
   for (Index v = 0; v < n; ++v) {
     double& distance = result.distance[v];

@@ -55,11 +55,11 @@ struct GeodesicReport {
   Index components = 0;
   Index components_without_source = 0;  ///< where the distance is +infinity
   Index clamped_faces = 0;              ///< of the calculus
-  Index flat_faces = 0;                 ///< without a direction: heat is the same at all corners
-  Index raised_values = 0;              ///< vertices set to 0 because they came out below
-  double lowest_value = 0;              ///< the lowest of these, in length; else 0
-  double heat_residual = 0;             ///< componentwise_residual of heat_front.h
-  double poisson_residual = 0;          ///< ||b - A x|| / ||b||
+  Index flat_faces = 0;         ///< without a direction: heat is nearly the same at all corners
+  Index raised_values = 0;      ///< vertices set to 0 because they came out below
+  double lowest_value = 0;      ///< the lowest of these, in length; else 0
+  double heat_residual = 0;     ///< componentwise_residual of heat_front.h
+  double poisson_residual = 0;  ///< ||b - A x|| / ||b||
   Index poisson_iterations = 0;
   double seconds_factorize = 0;  ///< direct factorizations, in the constructor
   double seconds_solve = 0;      ///< everything that depends on the sources

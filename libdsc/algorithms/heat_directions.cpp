@@ -5,6 +5,7 @@
 #include "libdsc/calculus/field_operators.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 namespace dsc {
 namespace {
 
-constexpr double kFlat = 1e-12;  // |G w| times the face's size, where w's largest entry is 1
+constexpr double kFlat = 1e-5;  // of |G w| times the face's size, where w's largest entry is 1
 
 /// The faces [first, last) of a mesh with corners of their own: a function on it is free to be
 /// scaled face by face.
@@ -65,7 +66,7 @@ class Exploded {
 
 }  // namespace
 
-HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w,
+HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w, double t,
                                const CalculusOptions& options, const Context& context) {
   if (w.size() != mesh.vertices()) {
     throw UsageError("heat: there are " + std::to_string(w.size()) + " values for " +
@@ -104,13 +105,11 @@ HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w,
     auto d = result.d.middleCols(first, last - first);
     d = face_gradients(flat, scaled, options, inner);
     for (Index f = 0; f < last - first; ++f) {
+      // Heat falls by about a part size / sqrt(t) on a face, size^2 / t once it has spread out.
+      const double size = part.size(f);
       const double length = d.col(f).norm();
-      if (length * part.size(f) > kFlat) {
-        d.col(f) /= -length;
-      } else {
-        d.col(f).setZero();
-        ++counts.flat;
-      }
+      d.col(f) /= -std::hypot(length, kFlat / size * std::min(1., size * size / t));
+      if (!(d.col(f).squaredNorm() > 0.25)) ++counts.flat;
     }
     counts.flat -= counts.cold;
     return counts;

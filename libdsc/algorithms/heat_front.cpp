@@ -52,27 +52,29 @@ Levels breadth_first(const SparseMatrix& A, std::span<const VertexId> sources,
   return l;
 }
 
-/// The lower triangle of A on the vertices at [first, last) of the order.
+/// The lower triangle of A on the vertices at [first, last) of the order, columns sorted.
 SparseMatrix band_matrix(const SparseMatrix& A, const Levels& levels, Index first, Index last) {
   const auto n = static_cast<Eigen::Index>(last - first);
   SparseMatrix band(n, n);
-  std::vector<int> rows;
-  std::vector<double> values;
-  rows.reserve(static_cast<std::size_t>(6 * n));
-  values.reserve(static_cast<std::size_t>(6 * n));
-  for (Index p = first; p < last; ++p) {
-    band.outerIndexPtr()[p - first] = static_cast<int>(rows.size());
-    for (SparseMatrix::InnerIterator it(A, levels.order[static_cast<std::size_t>(p)]); it; ++it) {
-      const Index q = levels.place[static_cast<std::size_t>(it.row())];
-      if (q < p || q >= last) continue;
-      rows.push_back(static_cast<int>(q - first));
-      values.push_back(it.value());
+  int* const start = band.outerIndexPtr();
+  const auto for_each = [&](auto&& visit) {  // row p ascending, columns q <= p
+    for (Index p = first; p < last; ++p) {
+      for (SparseMatrix::InnerIterator it(A, levels.order[static_cast<std::size_t>(p)]); it; ++it) {
+        const Index q = levels.place[static_cast<std::size_t>(it.row())];
+        if (q >= first && q <= p) visit(p - first, q - first, it.value());
+      }
     }
-  }
-  band.outerIndexPtr()[n] = static_cast<int>(rows.size());
-  band.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
-  std::copy(rows.begin(), rows.end(), band.innerIndexPtr());
-  std::copy(values.begin(), values.end(), band.valuePtr());
+  };
+  std::fill(start, start + n + 1, 0);
+  for_each([&](Index, Index q, double) { ++start[q + 1]; });
+  for (Eigen::Index q = 0; q < n; ++q) start[q + 1] += start[q];
+  band.resizeNonZeros(start[n]);
+  std::vector<int> next(start, start + n);
+  for_each([&](Index p, Index q, double value) {
+    const int k = next[static_cast<std::size_t>(q)]++;
+    band.innerIndexPtr()[k] = static_cast<int>(p);
+    band.valuePtr()[k] = value;
+  });
   return band;
 }
 
