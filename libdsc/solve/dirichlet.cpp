@@ -97,10 +97,14 @@ Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd&
 NeumannSolver::NeumannSolver(const SparseMatrix& A, Components components,
                              const SolverOptions& options, const Context& context,
                              const SpdSolverFactory& factory)
-    : components_(std::move(components)),
-      solver_(A, components_.lowest, options, context, factory) {
+    : components_(std::move(components)), tolerance_(options.tolerance), context_{context.threads} {
   if (static_cast<Index>(components_.of_vertex.size()) != A.rows()) {
     throw UsageError("Neumann: the components are those of another mesh");
+  }
+  if (factory || resolve(options.method, A.rows()) == SolverMethod::ldlt) {
+    direct_.emplace(A, components_.lowest, options, context, factory);
+  } else {  // it needs no fixed vertex, and converges faster without
+    multigrid_.emplace(A, MultigridOptions{}, context);
   }
 }
 
@@ -133,7 +137,13 @@ Solution NeumannSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& w
       start[v] = guess[v] - guess[components_.lowest[static_cast<std::size_t>(c)]];
     }
   }
-  Solution result = solver_.solve(b, start);
+  Solution result;
+  if (direct_) {
+    result = direct_->solve(b, start);
+  } else {
+    MultigridSolver::Solution s = multigrid_->solve(b, &start, tolerance_, context_);
+    result = {std::move(s.x), s.relative_residual, s.iterations};
+  }
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
   Eigen::VectorXd total = Eigen::VectorXd::Zero(count);
   for (Index v = 0; v < n; ++v) {

@@ -7,8 +7,10 @@
 #pragma once
 
 #include "libdsc/solve/components.h"
+#include "libdsc/solve/multigrid.h"
 #include "libdsc/solve/spd_solver.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +56,10 @@ class NeumannSolver {
 
  private:
   Components components_;
-  DirichletSolver solver_;
+  double tolerance_;
+  Context context_;  ///< threads only: a monitor may not live as long
+  std::optional<DirichletSolver> direct_;
+  std::optional<MultigridSolver> multigrid_;  ///< takes the singular matrix as it is
 };
 
 }  // namespace dsc

@@ -2,7 +2,9 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/solve/ldlt_solver.h"
+#include "libdsc/solve/multigrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -18,19 +20,43 @@ void check_length(Index length, Index n, const char* what) {
   }
 }
 
+class MultigridSpd final : public SpdSolver {
+ public:
+  MultigridSpd(SparseMatrix A, const SolverOptions& options, const Context& context)
+      : SpdSolver(std::move(A), options),
+        context_{context.threads},  // not its monitor, which may not live as long
+        multigrid_(shared_matrix(), MultigridOptions{}, context) {
+    if (multigrid_.report().singular_components > 0) {
+      throw SolverError("multigrid: the matrix of " + std::to_string(size()) +
+                        " unknowns is singular; a Laplacian needs a fixed vertex in each connected "
+                        "component");
+    }
+  }
+
+ protected:
+  Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const override {
+    MultigridSolver::Solution s = multigrid_.solve(r, nullptr, relative_tolerance, context_);
+    return {std::move(s.x), s.iterations};
+  }
+
+ private:
+  Context context_;
+  MultigridSolver multigrid_;
+};
+
 }  // namespace
 
-SpdSolver::SpdSolver(SparseMatrix A, const SolverOptions& options)
-    : matrix_(std::move(A)), tolerance_(options.tolerance) {
-  if (matrix_.rows() != matrix_.cols()) {
-    throw UsageError("solver: the matrix is " + std::to_string(matrix_.rows()) + " x " +
-                     std::to_string(matrix_.cols()) + ", it must be square");
+SpdSolver::SpdSolver(SparseMatrix A, const SolverOptions& options) : tolerance_(options.tolerance) {
+  A.makeCompressed();
+  matrix_ = std::make_shared<const SparseMatrix>(std::move(A));
+  if (matrix_->rows() != matrix_->cols()) {
+    throw UsageError("solver: the matrix is " + std::to_string(matrix_->rows()) + " x " +
+                     std::to_string(matrix_->cols()) + ", it must be square");
   }
   if (!(tolerance_ > 0 && tolerance_ < 1)) {
     throw UsageError("solver: the tolerance must lie in (0, 1)");
   }
-  matrix_.makeCompressed();
-  if (!Eigen::Map<const Eigen::ArrayXd>(matrix_.valuePtr(), matrix_.nonZeros()).allFinite()) {
+  if (!Eigen::Map<const Eigen::ArrayXd>(matrix_->valuePtr(), matrix_->nonZeros()).allFinite()) {
     throw SolverError("solver: the matrix has entries that are not finite");
   }
 }
@@ -56,7 +82,7 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
     return s;
   }
   Eigen::VectorXd r = b;
-  if (!x.isZero(0)) r.noalias() -= matrix_ * x;
+  if (!x.isZero(0)) r.noalias() -= *matrix_ * x;
   double residual = r.stableNorm() / scale;
   // One solve, one correction where it is asked for. The negated test lets NaN through to the
   // error.
@@ -66,7 +92,7 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
     s.iterations += correction.iterations + (pass > 0 && correction.iterations == 0 ? 1 : 0);
     x += correction.c;
     r = b;
-    r.noalias() -= matrix_ * x;
+    r.noalias() -= *matrix_ * x;
     residual = r.stableNorm() / scale;
   }
   if (!(residual <= tolerance_)) {
@@ -104,14 +130,10 @@ WideVector SpdSolver::solve_wide(const WideVector& b) const {
 
 std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options,
                                            const Context& context) {
-  switch (options.method) {
-    case SolverMethod::automatic:
-    case SolverMethod::ldlt:
-      return make_ldlt_solver(std::move(A), options, context);
-    case SolverMethod::multigrid:
-      break;
+  if (resolve(options.method, A.rows()) == SolverMethod::ldlt) {
+    return make_ldlt_solver(std::move(A), options, context);
   }
-  throw UsageError("solver: this method is not available");
+  return std::make_unique<MultigridSpd>(std::move(A), options, context);
 }
 
 std::unique_ptr<SpdSolver> make_solver(const SpdSolverFactory& factory, SparseMatrix A,

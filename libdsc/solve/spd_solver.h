@@ -45,8 +45,8 @@ class SpdSolver {
   SpdSolver(const SpdSolver&) = delete;
   SpdSolver& operator=(const SpdSolver&) = delete;
 
-  Index size() const { return matrix_.rows(); }
-  const SparseMatrix& matrix() const { return matrix_; }
+  Index size() const { return matrix_->rows(); }
+  const SparseMatrix& matrix() const { return *matrix_; }
 
   /// x with A x = b. `b` has size() entries.
   /// \throws UsageError on another length, SolverError where b is not finite or the residual stays
@@ -72,13 +72,21 @@ class SpdSolver {
     Index iterations = 0;
   };
   virtual Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const = 0;
+  /// For a method that needs the matrix as long as it lives.
+  const std::shared_ptr<const SparseMatrix>& shared_matrix() const { return matrix_; }
 
  private:
   Solution finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const;
 
-  SparseMatrix matrix_;
+  std::shared_ptr<const SparseMatrix> matrix_;
   double tolerance_;
 };
+
+/// The method that `method` stands for on n unknowns: automatic resolved.
+constexpr SolverMethod resolve(SolverMethod method, Index n) {
+  if (method != SolverMethod::automatic) return method;
+  return n <= kDirectLimit ? SolverMethod::ldlt : SolverMethod::multigrid;
+}
 
 /// A solver of the method asked for. `A` is n x n, symmetric positive definite, both triangles
 /// stored. \throws UsageError where A is not square, SolverError where A is singular, indefinite or
