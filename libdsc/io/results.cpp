@@ -97,15 +97,17 @@ Field scalar_field(std::string name, FieldOn on, std::span<const double> values)
   return field;
 }
 
-Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on,
-                   const Eigen::Ref<const Eigen::Matrix3Xd>& values) {
-  if (parts.size() != 3 || values.outerStride() != 3) {
-    throw UsageError("field " + name + ": a vector field has three parts and dense columns");
-  }
+Field scalar_field(std::string name, FieldOn on, const Eigen::VectorXd& values) {
+  return scalar_field(std::move(name), on,
+                      std::span(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on, Vec3View values) {
+  if (parts.size() != 3) throw UsageError("field " + name + ": a vector field has three parts");
   return {std::move(name),
           std::move(parts),
           on,
-          {values.data(), static_cast<std::size_t>(values.size())}};
+          {values.data, static_cast<std::size_t>(3 * values.size)}};
 }
 
 std::string result_endings() { return ".ply, .vtp, .csv"; }

@@ -42,9 +42,9 @@ struct Field {
 
 /// A scalar field; `name` is also its one part.
 Field scalar_field(std::string name, FieldOn on, std::span<const double> values);
+Field scalar_field(std::string name, FieldOn on, const Eigen::VectorXd& values);
 /// A field of 3-vectors, with the names of its parts.
-Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on,
-                   const Eigen::Ref<const Eigen::Matrix3Xd>& values);
+Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on, Vec3View values);
 
 /// What a file holds; a view, so that what it looks at must outlive it. Of the mesh, positions,
 /// corners and offsets are written; its normals only where a field names them.

@@ -1,0 +1,16 @@
+/// \file
+/// The subcommands. Each fills the run's report and writes the run's outputs.
+#pragma once
+
+#include "libdsc/cli/run.h"
+
+namespace dsc::cli {
+
+void run_info(Run& run);
+void run_surface(Run& run);
+void run_normals(Run& run);
+void run_gradient(Run& run);
+void run_diffuse(Run& run);
+void run_geodesic(Run& run);
+
+}  // namespace dsc::cli

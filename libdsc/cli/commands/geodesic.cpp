@@ -1,0 +1,91 @@
+#include "libdsc/algorithms/geodesic.h"
+#include "libdsc/cli/commands/commands.h"
+#include "libdsc/cli/known_answers.h"
+#include "libdsc/cli/stages.h"
+
+namespace dsc::cli {
+namespace {
+
+GeodesicOptions geodesic_options(const Run& run) {
+  GeodesicOptions options;
+  options.calculus = calculus_options(run);
+  options.time = run.options.time.value_or(0.);
+  switch (run.options.boundary) {
+    case BoundaryChoice::neumann:
+      options.boundary = HeatBoundary::neumann;
+      break;
+    case BoundaryChoice::mixed:
+      options.boundary = HeatBoundary::mixed;
+      break;
+  }
+  switch (run.options.method) {
+    case DistanceMethod::automatic:
+      options.method = HeatMethod::automatic;
+      break;
+    case DistanceMethod::direct:
+      options.method = HeatMethod::direct;
+      break;
+    case DistanceMethod::bands:
+      options.method = HeatMethod::bands;
+      break;
+  }
+  return options;
+}
+
+GeodesicResult solve(const FlatMesh& mesh, const std::vector<VertexId>& sources, Run& run) {
+  GeodesicOptions options = geodesic_options(run);
+  // One query: what GeodesicSolver would choose for many does not pay.
+  if (options.method == HeatMethod::automatic) options.method = HeatMethod::bands;
+  const GeodesicSolver solver(mesh, options, run.context);
+  GeodesicResult result = solver.distance(sources, run.context);
+  Timings& timings = run.report.timings;
+  timings.assemble = solver.seconds_assemble();
+  timings.factorize = result.report.seconds_factorize;
+  timings.solve = result.report.seconds_solve;
+  return result;
+}
+
+/// What the solver had to do that the user should know.
+void warn_of(const GeodesicReport& report, Run& run) {
+  if (report.time_raised) {
+    run.warn("the time of the heat step was raised to " + std::to_string(report.time) +
+             ": heat did not reach every vertex before");
+  }
+  if (report.components_without_source > 0) {
+    run.warn(std::to_string(report.components_without_source) + " of " +
+             std::to_string(report.components) +
+             " components have no source: the distance is infinite there");
+  }
+}
+
+void measure_error(const ImplicitShape& shape, const FlatMesh& mesh,
+                   const std::vector<VertexId>& sources, const Eigen::VectorXd& distance,
+                   Run& run) {
+  Eigen::Matrix3Xd points(3, static_cast<Index>(sources.size()));
+  for (Index i = 0; i < points.cols(); ++i) {
+    points.col(i) = mesh.positions[sources[static_cast<std::size_t>(i)]];
+  }
+  const std::optional<Eigen::VectorXd> known =
+      known_distances(shape, mesh.positions, points, run.context);
+  if (!known) return;
+  run.report.error_name = "against the exact distance";
+  run.report.error = error_norms(distance, *known);
+}
+
+}  // namespace
+
+void run_geodesic(Run& run) {
+  const Scene scene = prepare_scene(run);
+  const FlatMesh mesh = flat_mesh(scene.surface, run);
+  const std::vector<VertexId> sources = find_sources(scene.surface, run);
+  const GeodesicResult result = solve(mesh, sources, run);
+
+  note_calculus(result.report.clamped_faces, run);
+  warn_of(result.report, run);
+  run.report.result_name = "distance";
+  run.report.result = statistics_of(result.distance);
+  if (scene.input.shape) measure_error(*scene.input.shape, mesh, sources, result.distance, run);
+  write_outputs({mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}}, run);
+}
+
+}  // namespace dsc::cli

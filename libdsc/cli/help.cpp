@@ -1,0 +1,86 @@
+#include "libdsc/cli/help.h"
+
+#include "libdsc/io/results.h"
+#include "libdsc/voxels/shape_spec.h"
+
+#include <sstream>
+
+namespace dsc::cli {
+
+std::string help_footer() {
+  std::string text = "Shapes (shape:NAME[,key=value...] with --gridstep H):\n";
+  for (const std::string& line : known_shapes()) text += "  " + line + "\n";
+  text +=
+      "\nResults: " + result_endings() +
+      "\n\n"
+      "Exit codes: 0 done, 2 wrong usage, 3 bad input or output, 4 too large, 5 a solver failed,\n"
+      "130 interrupted.\n\n"
+      "Start here:\n"
+      "  dsc info object.vol\n"
+      "  dsc geodesic shape:sphere --gridstep 0.05 --source 0,0,1 -o distance.vtp\n"
+      "  dsc geodesic --help";
+  return text;
+}
+
+std::string help_footer(Command command) {
+  switch (command) {
+    case Command::info:
+      return "Examples:\n"
+             "  dsc info object.vol\n"
+             "  dsc info labels.npy --label 3 --label 4 --report counts.json\n"
+             "  dsc info shape:torus,R=2,r=0.5 --gridstep 0.05";
+    case Command::surface:
+      return "Examples:\n"
+             "  dsc surface object.vol -o surface.ply\n"
+             "  dsc surface ct.npy --threshold 300,3000 --border open -o bone.vtp\n"
+             "  dsc surface shape:goursat --gridstep 0.2 --adjacency exterior -o goursat.ply";
+    case Command::normals:
+      return "Fields: nx, ny, nz per face, unit, outwards.\n"
+             "For shapes the angle to the exact normals is reported, in radians.\n"
+             "Examples:\n"
+             "  dsc normals object.vol -o normals.vtp\n"
+             "  dsc normals object.vol --radius 6 --centre pair -o normals.csv\n"
+             "  dsc normals shape:sphere --gridstep 0.05 --estimator trivial";
+    case Command::gradient:
+      return "Fields: gx, gy, gz per face. The function is taken at the vertices; for shapes, at "
+             "the\n"
+             "points of the shape closest to them, and the error is reported against the exact\n"
+             "tangential gradient.\n"
+             "Examples:\n"
+             "  dsc gradient object.vol --function 'x^2 + y*z' -o gradient.vtp\n"
+             "  dsc gradient shape:sphere --gridstep 0.05 --function 'sin(3*x)' --report g.json";
+    case Command::diffuse:
+      return "Field: heat per vertex, (M0 - T L)^-1 of a unit of heat at each source.\n"
+             "Examples:\n"
+             "  dsc diffuse object.vol --source 10,20,30 --time 100 -o heat.vtp\n"
+             "  dsc diffuse shape:sphere --gridstep 0.05 --source 0,0,1 --time 0.1 -o heat.csv";
+    case Command::geodesic:
+      return "Field: distance per vertex, world units, to the nearest source; infinite where no "
+             "source\n"
+             "reaches. For spheres and planes the error is reported.\n"
+             "Examples:\n"
+             "  dsc geodesic object.vol --source 10,20,30 -o distance.vtp\n"
+             "  dsc geodesic object.vol --source-vertex 0 --source-vertex 999 -o distance.csv\n"
+             "  dsc geodesic shape:sphere --gridstep 0.1 --source 0.3,0.5,0.81 --calculus naive";
+  }
+  return "";
+}
+
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 96;
+  const std::string indent(30, ' ');  // CLI11's column of descriptions
+  std::string result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    while (line.size() > kWidth) {
+      const std::size_t blank = line.rfind(' ', kWidth);
+      if (blank == std::string::npos || blank <= indent.size()) break;
+      result += line.substr(0, blank) + "\n";
+      line = indent + line.substr(blank + 1);
+    }
+    result += line + "\n";
+  }
+  return result;
+}
+
+}  // namespace dsc::cli

@@ -1,0 +1,33 @@
+/// \file
+/// Where voxels come from: a file, or a shape to digitise.
+#pragma once
+
+#include "libdsc/cli/run.h"
+#include "libdsc/surface/extract.h"
+#include "libdsc/voxels/binary_volume.h"
+#include "libdsc/voxels/implicit_shape.h"
+
+#include <memory>
+
+namespace dsc::cli {
+
+/// A voxel set, and the shape that it digitises where there is one.
+///
+/// A shape that its box cuts has a surface inside the box only, but its solid goes on beyond. Where
+/// normals are estimated from balls of voxels, the volume has a margin of a ball's radius around
+/// the box, so that no ball feels the cut; `part` keeps the surfels of the box.
+struct Input {
+  BinaryVolume volume;
+  std::unique_ptr<ImplicitShape> shape;
+  Border border = Border::closed;
+  std::function<bool(const Surfel&)> part;  ///< empty: all surfels
+};
+
+/// Reads the file or digitises the shape. \throws InputError where no voxel is inside.
+Input read_input(Run& run);
+
+/// The radius of the integral invariant's ball: the one asked for, else shape_radius() or
+/// data_radius().
+double ball_radius(const Options& options, bool is_shape, const Vec3& spacing);
+
+}  // namespace dsc::cli

@@ -1,0 +1,105 @@
+// The program `dsc`: voxels in; surfaces, normals, gradients, heat and distances out.
+#include "libdsc/base/error.h"
+#include "libdsc/cli/commands/commands.h"
+#include "libdsc/cli/interruption.h"
+#include "libdsc/cli/options.h"
+#include "libdsc/cli/progress.h"
+#include "libdsc/cli/run.h"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+
+#include <unistd.h>
+
+namespace dsc::cli {
+namespace {
+
+void run_command(Run& run) {
+  switch (run.options.command) {
+    case Command::info:
+      return run_info(run);
+    case Command::surface:
+      return run_surface(run);
+    case Command::normals:
+      return run_normals(run);
+    case Command::gradient:
+      return run_gradient(run);
+    case Command::diffuse:
+      return run_diffuse(run);
+    case Command::geodesic:
+      return run_geodesic(run);
+  }
+}
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw OutputError("standard output cannot be written");
+  }
+}
+
+void run_and_report(const Options& options, ProgressBar& bar) {
+  Run run{options, {options.threads, &bar}, {}};
+  {
+    const Stopwatch watch(run.report.timings.total);
+    run_command(run);
+  }
+  bar.clear();
+  run.report.peak_memory_bytes = peak_memory_bytes();
+  if (!options.report.empty()) write_report(options.report, options, run.report);
+  if (!options.quiet) print(summary(options, run.report));
+  for (const std::string& warning : run.report.warnings) {
+    std::fprintf(stderr, "dsc: warning: %s\n", warning.c_str());
+  }
+}
+
+int run_program(int argc, const char* const* argv) {
+  const CommandLine line = parse_command_line(argc, argv);
+  if (line.text) {
+    print(*line.text);
+    return 0;
+  }
+  const auto bar =
+      std::make_shared<ProgressBar>(!line.options.quiet && ::isatty(STDERR_FILENO) != 0);
+  watch_signals(bar);
+  try {
+    run_and_report(line.options, *bar);
+  } catch (...) {
+    bar->clear();
+    throw;
+  }
+  return 0;
+}
+
+int fail(int code, const char* message) {
+  std::fprintf(stderr, "dsc: %s\n", message);
+  return code;
+}
+
+}  // namespace
+}  // namespace dsc::cli
+
+int main(int argc, char** argv) {
+  using namespace dsc;
+  try {
+    return cli::run_program(argc, argv);
+  } catch (const UsageError& error) {
+    return cli::fail(2, error.what());
+  } catch (const InputError& error) {
+    return cli::fail(3, error.what());
+  } catch (const OutputError& error) {
+    return cli::fail(3, error.what());
+  } catch (const LimitError& error) {
+    return cli::fail(4, error.what());
+  } catch (const std::bad_alloc&) {
+    return cli::fail(4, "out of memory; use a coarser grid or a part of the data");
+  } catch (const SolverError& error) {
+    return cli::fail(5, error.what());
+  } catch (const Cancelled&) {
+    return cli::fail(cli::kInterruptedExitCode, "interrupted");
+  } catch (const std::exception& error) {
+    return cli::fail(1, error.what());
+  }
+}

@@ -1,0 +1,49 @@
+#include "libdsc/cli/numbers.h"
+
+#include "libdsc/base/error.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace dsc::cli {
+
+std::vector<double> parse_numbers(std::string_view text, const std::string& option) {
+  std::vector<double> numbers;
+  const std::string all(text);
+  while (true) {
+    const std::size_t comma = text.find(',');
+    std::string_view word = text.substr(0, comma);
+    if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+      throw UsageError(option + " " + all + ": '" + std::string(word) + "' is not a number");
+    }
+    numbers.push_back(value);
+    if (comma == std::string_view::npos) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+Vec3 parse_point(std::string_view text, const std::string& option) {
+  const std::vector<double> numbers = parse_numbers(text, option);
+  if (numbers.size() != 3) {
+    throw UsageError(option + " " + std::string(text) + ": expected x,y,z");
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Vec3 parse_spacing(std::string_view text, const std::string& option) {
+  const std::vector<double> numbers = parse_numbers(text, option);
+  if (numbers.size() != 1 && numbers.size() != 3) {
+    throw UsageError(option + " " + std::string(text) + ": expected one number or hx,hy,hz");
+  }
+  const Vec3 spacing =
+      numbers.size() == 1 ? Vec3::Constant(numbers[0]) : Vec3(numbers[0], numbers[1], numbers[2]);
+  if (!(spacing.array() > 0).all()) {
+    throw UsageError(option + " " + std::string(text) + ": must be positive");
+  }
+  return spacing;
+}
+
+}  // namespace dsc::cli

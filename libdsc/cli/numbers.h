@@ -1,0 +1,22 @@
+/// \file
+/// Numbers in the words of a command line.
+#pragma once
+
+#include "libdsc/base/types.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dsc::cli {
+
+/// The finite numbers of a comma-separated list. \throws UsageError naming `option`.
+std::vector<double> parse_numbers(std::string_view text, const std::string& option);
+
+/// Three of them. \throws UsageError naming `option`.
+Vec3 parse_point(std::string_view text, const std::string& option);
+
+/// One positive number for all axes, or three. \throws UsageError naming `option`.
+Vec3 parse_spacing(std::string_view text, const std::string& option);
+
+}  // namespace dsc::cli

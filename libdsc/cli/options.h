@@ -1,0 +1,71 @@
+/// \file
+/// The command line of `dsc`, read and checked before anything is computed.
+#pragma once
+
+#include "libdsc/base/types.h"
+#include "libdsc/normals/integral_invariant.h"
+#include "libdsc/surface/extract.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dsc::cli {
+
+enum class Command { info, surface, normals, gradient, diffuse, geodesic };
+enum class Estimator { integral_invariant, trivial, analytic };
+enum class BoundaryChoice { neumann, mixed };
+enum class DistanceMethod { automatic, direct, bands };
+
+/// Everything that the command line can say. An option that a command does not have keeps its
+/// default there.
+struct Options {
+  Command command = Command::info;
+
+  // what is read
+  std::string input;                               ///< a volume file or shape:…
+  std::optional<Vec3> gridstep;                    ///< world units per axis
+  std::optional<std::array<double, 2>> threshold;  ///< inside is LO <= value <= HI
+  std::vector<std::int64_t> labels;                ///< inside is any of these
+  std::optional<Border> border;                    ///< not given: open for shapes cut by their box
+  Adjacency adjacency = Adjacency::interior;
+
+  // how normals and operators are made
+  Estimator estimator = Estimator::integral_invariant;
+  BallCentre centre = BallCentre::surfel;
+  std::optional<double> radius;  ///< world units
+  bool projected = true;         ///< false: the naive calculus
+  double lambda = 0.25;
+
+  // what is computed
+  std::string function;                       ///< gradient: an expression in x, y, z
+  std::vector<Vec3> sources;                  ///< the vertex nearest to each
+  std::vector<std::int64_t> source_vertices;  ///< vertex ids
+  std::optional<double> time;
+  BoundaryChoice boundary = BoundaryChoice::mixed;
+  DistanceMethod method = DistanceMethod::automatic;
+
+  // how it is run and what is written
+  std::vector<std::string> outputs;
+  std::string report;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// The command line, or the text that it asks for (--help, --version) instead.
+struct CommandLine {
+  Options options;
+  std::optional<std::string> text;
+};
+
+/// \throws UsageError with a message that names the option and what it takes.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+/// The command's name as typed.
+const char* name_of(Command command);
+/// The estimator's name as typed.
+const char* name_of(Estimator estimator);
+
+}  // namespace dsc::cli

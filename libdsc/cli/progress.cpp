@@ -1,0 +1,72 @@
+#include "libdsc/cli/progress.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace dsc::cli {
+namespace {
+
+std::int64_t now_ms() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+/// A bar that cannot be drawn is no reason to fail.
+void put(const char* text, std::size_t size) noexcept {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, size);
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(bool draw) : draw_(draw), due_(now_ms() + 200) {}
+
+void ProgressBar::begin(std::string_view stage, Index total) {
+  if (!draw_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stage_ = stage;
+  }
+  done_.store(0, std::memory_order_relaxed);
+  total_.store(total, std::memory_order_relaxed);
+  draw_if_due();
+}
+
+void ProgressBar::advance(Index units) noexcept {
+  if (!draw_) return;
+  done_.fetch_add(units, std::memory_order_relaxed);
+  draw_if_due();
+}
+
+void ProgressBar::draw_if_due() noexcept {
+  std::int64_t due = due_.load(std::memory_order_relaxed);
+  const std::int64_t now = now_ms();
+  if (now < due || !due_.compare_exchange_strong(due, now + 100, std::memory_order_relaxed)) return;
+  const std::lock_guard lock(mutex_);
+  const Index total = total_.load(std::memory_order_relaxed);
+  const Index done = std::min(done_.load(std::memory_order_relaxed), total);
+  char line[128];
+  int size = 0;
+  if (total > 0) {
+    constexpr int kWidth = 40;
+    const double fraction = static_cast<double>(done) / static_cast<double>(total);
+    const int filled = static_cast<int>(fraction * kWidth);
+    size = std::snprintf(line, sizeof line, "\r\033[K%-24.24s [%.*s%*s] %3.0f %%", stage_.c_str(),
+                         filled, "########################################", kWidth - filled, "",
+                         100. * fraction);
+  } else {
+    size = std::snprintf(line, sizeof line, "\r\033[K%-24.24s", stage_.c_str());
+  }
+  if (size > 0) put(line, static_cast<std::size_t>(size));
+  visible_ = true;
+}
+
+void ProgressBar::clear() noexcept {
+  const std::lock_guard lock(mutex_);
+  if (visible_) put("\r\033[K", 4);
+  visible_ = false;
+}
+
+}  // namespace dsc::cli

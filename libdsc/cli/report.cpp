@@ -1,0 +1,99 @@
+#include "libdsc/cli/report.h"
+
+#include "libdsc/io/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include <sys/resource.h>
+
+namespace dsc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json numbers(const Vec3& v) { return Json::array({number(v[0]), number(v[1]), number(v[2])}); }
+
+Json json_of(const InputReport& input) {
+  return {{"name", input.name},
+          {"size", input.size},
+          {"spacing", numbers(input.spacing)},
+          {"origin", numbers(input.origin)},
+          {"voxels_inside", input.inside}};
+}
+
+Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {
+  return {{"vertices", counts.vertices},
+          {"edges", counts.edges},
+          {"faces", counts.faces},
+          {"components", counts.components},
+          {"boundary_edges", counts.boundary_edges},
+          {"nonmanifold_edges", counts.nonmanifold_edges},
+          {"pinched_vertices", counts.pinched_vertices},
+          {"euler", counts.euler},
+          {"adjacency", adjacency == Adjacency::interior ? "interior" : "exterior"}};
+}
+
+Json json_of(const NormalsReport& normals) {
+  return {{"estimator", normals.estimator},
+          {"radius", number(normals.radius)},
+          {"fallbacks", normals.fallbacks}};
+}
+
+Json json_of(const CalculusReport& calculus) {
+  return {{"kind", calculus.projected ? "projected" : "naive"},
+          {"lambda", number(calculus.lambda)},
+          {"clamped_faces", calculus.clamped_faces}};
+}
+
+Json json_of(const Timings& t) {
+  return {{"read", number(t.read)},           {"extract", number(t.extract)},
+          {"normals", number(t.normals)},     {"assemble", number(t.assemble)},
+          {"factorize", number(t.factorize)}, {"solve", number(t.solve)},
+          {"write", number(t.write)},         {"total", number(t.total)}};
+}
+
+Json json_of(const std::string& name, const Statistics& s) {
+  return {{"quantity", name},       {"min", number(s.min)}, {"max", number(s.max)},
+          {"mean", number(s.mean)}, {"finite", s.finite},   {"infinite", s.infinite}};
+}
+
+Json json_of(const std::string& name, const ErrorNorms& e) {
+  return {
+      {"quantity", name}, {"mean", number(e.mean)}, {"max", number(e.max)}, {"l2", number(e.l2)}};
+}
+
+}  // namespace
+
+Index peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return Index{usage.ru_maxrss} * 1024;
+}
+
+void write_report(const std::string& path, const Options& options, const Report& report) {
+  Json json;
+  json["program"] = std::string("dsc ") + DSC_VERSION;
+  json["command"] = name_of(options.command);
+  if (report.input) json["input"] = json_of(*report.input);
+  if (report.surface) json["surface"] = json_of(*report.surface, options.adjacency);
+  if (report.normals) json["normals"] = json_of(*report.normals);
+  if (report.calculus) json["calculus"] = json_of(*report.calculus);
+  if (!report.source_vertices.empty()) json["source_vertices"] = report.source_vertices;
+  if (report.result) json["result"] = json_of(report.result_name, *report.result);
+  if (report.error) json["error"] = json_of(report.error_name, *report.error);
+  json["outputs"] = report.outputs;
+  json["warnings"] = report.warnings;
+  json["timings_s"] = json_of(report.timings);
+  json["peak_memory_bytes"] = report.peak_memory_bytes;
+
+  // A file name need not be UTF-8, as JSON must be.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+}  // namespace dsc::cli

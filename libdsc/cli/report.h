@@ -1,0 +1,67 @@
+/// \file
+/// What a run found out about itself: the content of --report FILE.json and of the summary.
+#pragma once
+
+#include "libdsc/cli/options.h"
+#include "libdsc/cli/statistics.h"
+#include "libdsc/surface/digital_surface.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dsc::cli {
+
+struct InputReport {
+  std::string name;  ///< the file, or the shape with all its parameters
+  Index3 size{0, 0, 0};
+  Vec3 spacing{1., 1., 1.};
+  Vec3 origin{0., 0., 0.};
+  Index inside = 0;  ///< voxels
+};
+
+struct NormalsReport {
+  std::string estimator;
+  double radius = 0;    ///< world units; 0 where the estimator has none
+  Index fallbacks = 0;  ///< faces whose estimate had to be replaced
+};
+
+struct CalculusReport {
+  bool projected = true;
+  double lambda = 0;
+  Index clamped_faces = 0;
+};
+
+/// Wall-clock seconds; 0 for a stage that was not needed.
+struct Timings {
+  double read = 0, extract = 0, normals = 0, assemble = 0, factorize = 0, solve = 0, write = 0;
+  double total = 0;
+};
+
+struct Report {
+  std::optional<InputReport> input;
+  std::optional<SurfaceCounts> surface;
+  std::optional<NormalsReport> normals;
+  std::optional<CalculusReport> calculus;
+  std::vector<std::int64_t> source_vertices;
+  std::string result_name;  ///< the quantity that `result` is about
+  std::optional<Statistics> result;
+  std::string error_name;  ///< what `error` measures
+  std::optional<ErrorNorms> error;
+  std::vector<std::string> warnings;
+  std::vector<std::string> outputs;
+  Timings timings;
+  Index peak_memory_bytes = 0;
+};
+
+/// The peak resident memory of this process so far, in bytes.
+Index peak_memory_bytes();
+
+/// Writes the report as JSON, whole or not at all; numbers that JSON cannot hold become null.
+/// \throws OutputError.
+void write_report(const std::string& path, const Options& options, const Report& report);
+
+/// The short, aligned text for stdout.
+std::string summary(const Options& options, const Report& report);
+
+}  // namespace dsc::cli

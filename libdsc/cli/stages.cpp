@@ -1,0 +1,124 @@
+#include "libdsc/cli/stages.h"
+
+#include "libdsc/calculus/embedding.h"
+#include "libdsc/normals/surface_normals.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace dsc::cli {
+
+DigitalSurface extract(const Input& input, Run& run) {
+  const Stopwatch watch(run.report.timings.extract);
+  ExtractOptions options;
+  options.adjacency = run.options.adjacency;
+  options.border = input.border;
+  options.part = input.part;
+  DigitalSurface surface = extract_surface(input.volume, options, run.context);
+  run.report.surface = surface.counts();
+  if (surface.face_count() == 0) {
+    throw InputError("'" + run.options.input +
+                     "': the surface has no face; its sides on the border of the volume were left "
+                     "open");
+  }
+  return surface;
+}
+
+void estimate_normals(const Input& input, DigitalSurface& surface, Run& run) {
+  const Stopwatch watch(run.report.timings.normals);
+  NormalReport report;
+  switch (run.options.estimator) {
+    case Estimator::integral_invariant: {
+      IntegralInvariantOptions options;
+      options.radius =
+          ball_radius(run.options, input.shape != nullptr, input.volume.grid().spacing);
+      options.centre = run.options.centre;
+      report = integral_invariant_normals(surface, input.volume, options, run.context);
+      break;
+    }
+    case Estimator::trivial:
+      report = trivial_normals(surface, run.context);
+      break;
+    case Estimator::analytic:
+      report = analytic_normals(surface, *input.shape, run.context);
+      break;
+  }
+  run.report.normals =
+      NormalsReport{name_of(run.options.estimator), report.radius, report.fallbacks};
+  if (report.fallbacks > 0) {
+    run.warn(std::to_string(report.fallbacks) + " of " + std::to_string(surface.face_count()) +
+             " faces keep their own normal: the estimator had no answer there");
+  }
+}
+
+Scene prepare_scene(Run& run) {
+  Input input = read_input(run);
+  DigitalSurface surface = extract(input, run);
+  if (run.options.projected) estimate_normals(input, surface, run);
+  return {std::move(input), std::move(surface)};
+}
+
+FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run) {
+  return surface.flat(run.options.projected);
+}
+
+CalculusOptions calculus_options(const Run& run) {
+  CalculusOptions options;
+  options.lambda = run.options.lambda;
+  return options;
+}
+
+Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options) {
+  Index count = 0;
+  if (!mesh.has_normals()) return count;
+  for (Index f = 0; f < mesh.faces(); ++f) {
+    const Vec3 own = mesh.surfels[static_cast<std::size_t>(f)].normal();
+    if (embed(mesh.normals[f], own, options.min_cosine).clamped) ++count;
+  }
+  return count;
+}
+
+void note_calculus(Index clamped_faces, Run& run) {
+  run.report.calculus = CalculusReport{run.options.projected, run.options.lambda, clamped_faces};
+}
+
+std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run) {
+  const Vec3View positions = surface.positions();
+  std::vector<VertexId> sources;
+  for (const std::int64_t id : run.options.source_vertices) {
+    if (id < 0 || id >= positions.size) {
+      throw UsageError("--source-vertex " + std::to_string(id) +
+                       ": the surface has the vertices 0 to " + std::to_string(positions.size - 1));
+    }
+    sources.push_back(static_cast<VertexId>(id));
+  }
+  for (const Vec3& point : run.options.sources) {
+    Index nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index v = 0; v < positions.size; ++v) {
+      const double distance = (positions[v] - point).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        nearest = v;
+      }
+    }
+    sources.push_back(static_cast<VertexId>(nearest));
+  }
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  run.report.source_vertices.assign(sources.begin(), sources.end());
+  return sources;
+}
+
+void write_outputs(const Result& result, Run& run) {
+  const Stopwatch watch(run.report.timings.write);
+  for (const std::string& path : run.options.outputs) {
+    const std::vector<std::string> left_out = write_result(path, result, run.context);
+    for (const std::string& field : left_out) {
+      run.warn("'" + path + "' has no room for " + field + "; write .ply or .vtp as well");
+    }
+    run.report.outputs.push_back(path);
+  }
+}
+
+}  // namespace dsc::cli

@@ -1,0 +1,47 @@
+/// \file
+/// The stages that commands share: read, extract, estimate normals, write. Each one notes its time
+/// and its findings in the run's report.
+#pragma once
+
+#include "libdsc/calculus/options.h"
+#include "libdsc/cli/input.h"
+#include "libdsc/cli/run.h"
+#include "libdsc/io/results.h"
+#include "libdsc/surface/digital_surface.h"
+
+#include <vector>
+
+namespace dsc::cli {
+
+/// The surface of the input. \throws InputError where it has no face, though voxels are inside.
+DigitalSurface extract(const Input& input, Run& run);
+
+/// Estimates normals as the options say and writes them to the surface.
+void estimate_normals(const Input& input, DigitalSurface& surface, Run& run);
+
+/// All of the above, normals only for the projected calculus.
+struct Scene {
+  Input input;
+  DigitalSurface surface;
+};
+Scene prepare_scene(Run& run);
+
+/// The mesh that the calculus reads: naive where the options ask for it.
+FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run);
+CalculusOptions calculus_options(const Run& run);
+
+/// The faces whose normal the calculus tilts back (embedding.h), where no operator tells.
+Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options);
+
+/// Puts the calculus into the report.
+void note_calculus(Index clamped_faces, Run& run);
+
+/// The vertex ids of the options' sources: the vertex nearest in position to each point, lowest id
+/// first among equals, and the ids given. Sorted, each once. \throws UsageError for an id that the
+/// surface does not have.
+std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run);
+
+/// Writes the result to every output.
+void write_outputs(const Result& result, Run& run);
+
+}  // namespace dsc::cli

@@ -1,0 +1,96 @@
+// The text that a run prints: a column of names, a column of what they are.
+#include "libdsc/cli/report.h"
+
+#include <fmt/format.h>
+
+namespace dsc::cli {
+namespace {
+
+std::string line(std::string_view name, const std::string& text) {
+  return fmt::format("{:<10} {}\n", name, text);
+}
+
+std::string counted(Index n, std::string_view singular, std::string_view plural) {
+  return fmt::format("{} {}", n, n == 1 ? singular : plural);
+}
+
+std::string text_of(const SurfaceCounts& c) {
+  std::string text = fmt::format("{}, {}, {}, Euler number {}", counted(c.faces, "face", "faces"),
+                                 counted(c.vertices, "vertex", "vertices"),
+                                 counted(c.components, "component", "components"), c.euler);
+  if (c.boundary_edges > 0)
+    text += ", " + counted(c.boundary_edges, "boundary edge", "boundary edges");
+  if (c.nonmanifold_edges > 0) {
+    text += ", " + counted(c.nonmanifold_edges, "non-manifold edge", "non-manifold edges");
+  }
+  if (c.pinched_vertices > 0) {
+    text += ", " + counted(c.pinched_vertices, "pinched vertex", "pinched vertices");
+  }
+  return text;
+}
+
+std::string text_of(const InputReport& input) {
+  const auto& [x, y, z] = input.size;
+  const Vec3& h = input.spacing;
+  const std::string spacing = h[0] == h[1] && h[1] == h[2]
+                                  ? fmt::format("{:g}", h[0])
+                                  : fmt::format("{:g} x {:g} x {:g}", h[0], h[1], h[2]);
+  return fmt::format("{}: {} x {} x {} voxels of {}, {} inside", input.name, x, y, z, spacing,
+                     input.inside);
+}
+
+std::string text_of(const NormalsReport& normals) {
+  std::string text = normals.estimator == "ii" ? "integral invariant" : normals.estimator;
+  if (normals.radius > 0) text += fmt::format(", radius {:.4g}", normals.radius);
+  if (normals.fallbacks > 0) text += ", " + counted(normals.fallbacks, "fallback", "fallbacks");
+  return text;
+}
+
+std::string text_of(const Timings& t) {
+  std::string parts;
+  const auto add = [&](const char* name, double seconds) {
+    if (seconds >= 0.005)
+      parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", name, seconds);
+  };
+  add("read", t.read);
+  add("extract", t.extract);
+  add("normals", t.normals);
+  add("assemble", t.assemble);
+  add("factorize", t.factorize);
+  add("solve", t.solve);
+  add("write", t.write);
+  return fmt::format("{:.2f} s", t.total) + (parts.empty() ? "" : " (" + parts + ")");
+}
+
+}  // namespace
+
+std::string summary(const Options& options, const Report& report) {
+  std::string text;
+  if (report.input) text += line("input", text_of(*report.input));
+  if (report.surface) text += line("surface", text_of(*report.surface));
+  if (report.normals) text += line("normals", text_of(*report.normals));
+  if (report.calculus) {
+    text +=
+        line("calculus",
+             fmt::format("{}, lambda {:g}, {}", report.calculus->projected ? "projected" : "naive",
+                         options.lambda,
+                         counted(report.calculus->clamped_faces, "clamped face", "clamped faces")));
+  }
+  if (report.result) {
+    const Statistics& s = *report.result;
+    std::string values = fmt::format("min {:.6g}, max {:.6g}, mean {:.6g}", s.min, s.max, s.mean);
+    if (s.infinite > 0) values += fmt::format(", {} infinite", s.infinite);
+    text += line(report.result_name, values);
+  }
+  if (report.error) {
+    const ErrorNorms& e = *report.error;
+    text += line("error", fmt::format("mean {:.4g}, max {:.4g}, l2 {:.4g} ({})", e.mean, e.max,
+                                      e.l2, report.error_name));
+  }
+  for (const std::string& path : report.outputs) text += line("written", path);
+  text += line("time", fmt::format("{}; peak memory {:.0f} MB", text_of(report.timings),
+                                   static_cast<double>(report.peak_memory_bytes) / 1e6));
+  return text;
+}
+
+}  // namespace dsc::cli

@@ -1,0 +1,104 @@
+// What the program says to a command line: texts, refusals, exit codes.
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+
+namespace dsc::test {
+namespace {
+
+const std::vector<std::string> kCommands = {"info",     "surface", "normals",
+                                            "gradient", "diffuse", "geodesic"};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// One line on stderr that starts with the program's name, nothing on stdout.
+void expect_refused(const Outcome& outcome, int exit_code, const std::vector<std::string>& words) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("dsc: ", 0), 0U) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  for (const std::string& word : words) EXPECT_TRUE(contains(outcome.err, word)) << outcome.err;
+}
+
+TEST(CommandLine, HelpNamesEveryCommandShapeAndExitCode) {
+  const Outcome outcome = run_dsc({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  for (const std::string& command : kCommands) EXPECT_TRUE(contains(outcome.out, command));
+  for (const std::string word : {"sphere", "torus", "goursat", "expr:", ".vtp", "130"}) {
+    EXPECT_TRUE(contains(outcome.out, word)) << word;
+  }
+}
+
+TEST(CommandLine, EveryCommandHasHelpWithExamplesThatAreAccepted) {
+  for (const std::string& command : kCommands) {
+    const Outcome outcome = run_dsc({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(contains(outcome.out, "--report")) << command;
+    EXPECT_TRUE(contains(outcome.out, "dsc " + command)) << command;
+    EXPECT_TRUE(contains(outcome.out, "Examples:")) << command;
+  }
+}
+
+TEST(CommandLine, VersionIsTheProjects) {
+  EXPECT_EQ(run_dsc({"--version"}).out, "dsc " DSC_VERSION "\n");
+}
+
+TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
+  const std::string sphere = "shape:sphere";
+  expect_refused(run_dsc({}), 2, {"--help"});
+  expect_refused(run_dsc({"frobnicate"}), 2, {"frobnicate", "--help"});
+  expect_refused(run_dsc({"info"}), 2, {"INPUT"});
+  expect_refused(run_dsc({"info", sphere}), 2, {"--gridstep"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0"}), 2, {"--gridstep", "positive"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1,0.1"}), 2, {"--gridstep"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "nan"}), 2, {"nan"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1x"}), 2, {"0.1x"});
+  expect_refused(run_dsc({"info", "shape:cube", "--gridstep", "0.1"}), 2, {"cube", "sphere"});
+  expect_refused(run_dsc({"info", "shape:sphere,q=1", "--gridstep", "0.1"}), 2, {"q"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--frob"}), 2, {"--frob"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--label", "1"}), 2, {"--label"});
+  expect_refused(run_dsc({"info", "a.vol", "--threshold", "3,2"}), 2, {"--threshold", "LO"});
+  expect_refused(run_dsc({"surface", sphere, "--gridstep", "0.1"}), 2, {"--output"});
+  expect_refused(run_dsc({"normals", sphere, "--gridstep", "0.1", "--estimator", "best"}), 2,
+                 {"--estimator", "ii", "trivial", "analytic"});
+  expect_refused(run_dsc({"normals", "a.vol", "--estimator", "analytic"}), 2, {"analytic"});
+  expect_refused(run_dsc({"normals", sphere, "--gridstep", "0.1", "--radius", "-1"}), 2,
+                 {"--radius"});
+  expect_refused(run_dsc({"gradient", sphere, "--gridstep", "0.1"}), 2, {"--function"});
+  expect_refused(run_dsc({"gradient", sphere, "--gridstep", "0.1", "--function", "x+"}), 2, {"x+"});
+  expect_refused(run_dsc({"diffuse", sphere, "--gridstep", "0.1", "--time", "1"}), 2, {"--source"});
+  expect_refused(run_dsc({"diffuse", sphere, "--gridstep", "0.1", "--source", "0,0,1"}), 2,
+                 {"--time"});
+  expect_refused(run_dsc({"geodesic", sphere, "--gridstep", "0.1"}), 2, {"--source"});
+  expect_refused(run_dsc({"geodesic", sphere, "--gridstep", "0.1", "--source", "0,0"}), 2,
+                 {"x,y,z"});
+  expect_refused(run_dsc({"geodesic", sphere, "--gridstep", "0.1", "--source-vertex", "999999"}), 2,
+                 {"999999", "0 to"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--threads", "0"}), 2,
+                 {"--threads"});
+}
+
+TEST(CommandLine, AnUnknownEndingIsRefusedBeforeTheInputIsRead) {
+  expect_refused(run_dsc({"surface", "missing.vol", "-o", "a.obj"}), 2,
+                 {"a.obj", ".ply", ".vtp", ".csv"});
+}
+
+TEST(CommandLine, AnInputThatCannotBeReadIsExitCodeThree) {
+  const Folder folder;
+  expect_refused(run_dsc({"info", folder / "missing.vol"}), 3, {"missing.vol"});
+  write_file(folder / "broken.vol", "this is no volume\n");
+  expect_refused(run_dsc({"info", folder / "broken.vol"}), 3, {"broken.vol"});
+  expect_refused(
+      run_dsc({"info", "shape:sphere,r=0.01", "--gridstep", "0.5,0.5,0.5", "--border", "open"}), 3,
+      {});
+}
+
+TEST(CommandLine, AGridTooFineForMemoryIsExitCodeFour) {
+  expect_refused(run_dsc({"info", "shape:sphere", "--gridstep", "1e-9"}), 4, {});
+}
+
+}  // namespace
+}  // namespace dsc::test

@@ -1,0 +1,97 @@
+#include "tests/cli/program.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace dsc::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string drain(int file) {
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = ::read(file, buffer, sizeof buffer)) > 0;) {
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
+  ::close(file);
+  return text;
+}
+
+}  // namespace
+
+Outcome run_dsc(const std::vector<std::string>& arguments, const std::function<void()>& in_child,
+                const std::function<void(int)>& meanwhile) {
+  int out[2], err[2];
+  if (::pipe(out) != 0 || ::pipe(err) != 0) throw std::runtime_error("pipe");
+  std::vector<char*> argv{const_cast<char*>("dsc")};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork");
+  if (child == 0) {
+    ::dup2(out[1], STDOUT_FILENO);
+    ::dup2(err[1], STDERR_FILENO);
+    for (const int file : {out[0], out[1], err[0], err[1]}) ::close(file);
+    if (in_child) in_child();
+    ::execv(DSC_PROGRAM, argv.data());
+    ::_exit(127);
+  }
+  ::close(out[1]);
+  ::close(err[1]);
+  Outcome outcome;
+  std::thread errors([&] { outcome.err = drain(err[0]); });
+  if (meanwhile) meanwhile(child);
+  outcome.out = drain(out[0]);
+  errors.join();
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+Folder::Folder() {
+  std::string pattern = (fs::temp_directory_path() / "dsc_cli_XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp");
+  path_ = pattern;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> Folder::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string test_data(const std::string& name) {
+  const char* folder = std::getenv("DSC_TEST_DATA");
+  return folder == nullptr ? "" : (fs::path(folder) / name).string();
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in.is_open()) throw std::runtime_error("cannot open " + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+nlohmann::json read_json(const std::string& path) { return nlohmann::json::parse(read_file(path)); }
+
+void write_file(const std::string& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+}  // namespace dsc::test

@@ -1,0 +1,49 @@
+/// \file
+/// Runs the real program, as a shell would.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dsc::test {
+
+struct Outcome {
+  int exit_code = -1;  ///< 128 + the signal's number where one ended the program
+  std::string out;
+  std::string err;
+};
+
+/// Runs `dsc` with these arguments and waits for it. `in_child` is called between fork and exec;
+/// `meanwhile` in the parent, with the child's process id, once it runs.
+Outcome run_dsc(const std::vector<std::string>& arguments,
+                const std::function<void()>& in_child = {},
+                const std::function<void(int)>& meanwhile = {});
+
+/// A fresh folder, removed at the end of its scope.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// The names in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A file of DSC_TEST_DATA, or "" where that is not set.
+std::string test_data(const std::string& name);
+
+nlohmann::json read_json(const std::string& path);
+std::string read_file(const std::string& path);
+void write_file(const std::string& path, const std::string& content);
+
+}  // namespace dsc::test
