@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace dsc::cli {
 namespace {
@@ -37,8 +38,7 @@ void add_input(CLI::App& app, Options& o) {
       ->type_name("LO,HI");
   app.add_option("--label", o.labels, "voxels with this value are inside; again for more")
       ->type_name("N")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   add_choice(app, "--adjacency", o.adjacency,
              {{"interior", Adjacency::interior}, {"exterior", Adjacency::exterior}},
              "which surfels are linked where four meet at an edge (default: interior)");
@@ -54,8 +54,7 @@ void add_run(CLI::App& app, Options& o, bool writes) {
     app.add_option("-o,--output", o.outputs,
                    "write the result here; again for more (" + result_endings() + ")")
         ->type_name("FILE")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
   }
   app.add_option("--report", o.report, "write counts, timings, memory and errors here as JSON")
       ->type_name("FILE");
@@ -99,12 +98,10 @@ void add_sources(CLI::App& app, Options& o) {
          },
          "a point in world units; the vertex nearest to it is a source; again for more")
       ->type_name("X,Y,Z")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--source-vertex", o.source_vertices, "a vertex id as a source; again for more")
       ->type_name("ID")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
 }
 
 CLI::App& add_command(CLI::App& app, Options& o, Command command, const char* description) {
@@ -163,6 +160,15 @@ void add_commands(CLI::App& app, Options& o) {
   add_run(geodesic, o, true);
 }
 
+/// A mistyped folder should not come out after the work is done. \throws OutputError.
+void check_folder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw OutputError("'" + path + "': the folder '" + folder.string() +
+                      "' does not exist; create it first");
+  }
+}
+
 /// What CLI11 cannot know.
 void check(const Options& o) {
   const bool shape = o.input.rfind("shape:", 0) == 0;
@@ -189,6 +195,7 @@ void check(const Options& o) {
   const auto twice = std::adjacent_find(files.begin(), files.end());
   if (twice != files.end()) throw UsageError("'" + *twice + "' is to be written twice");
   for (const std::string& path : o.outputs) check_result_path(path);
+  check_folder(o.report);
 }
 
 }  // namespace

