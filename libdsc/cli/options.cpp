@@ -160,6 +160,18 @@ void add_commands(CLI::App& app, Options& o) {
   add_run(geodesic, o, true);
 }
 
+/// CLI11 would only say that a subcommand is missing.
+void check_command(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* sub : app.get_subcommands({})) {
+    if (sub->get_name() == argv[1]) return;
+    known += (known.empty() ? "" : ", ") + sub->get_name();
+  }
+  throw UsageError("'" + std::string(argv[1]) + "' is no command; there are " + known +
+                   "; see dsc --help");
+}
+
 /// A mistyped folder should not come out after the work is done. \throws OutputError.
 void check_folder(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -208,6 +220,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.footer(help_footer());
   add_commands(app, line.options);
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
