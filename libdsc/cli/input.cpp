@@ -18,6 +18,7 @@ class RespacedSource final : public VolumeSource {
     grid_.spacing = spacing;
   }
   const Grid& grid() const override { return grid_; }
+  RigidMap world() const override { return source_->world(); }
   bool x_fastest() const override { return source_->x_fastest(); }
   void read(const std::function<void(const Slab&)>& take, const Context& context) override {
     source_->read(take, context);
@@ -80,10 +81,10 @@ Input digitized(Run& run) {
   input.border = options.border.value_or(cut ? Border::open : Border::closed);
   if (cut && input.border == Border::open && uses_balls(options)) {
     const WidenedShape wide(*input.shape, ball_radius(options, true, spacing));
-    input.volume = digitize(wide, spacing, run.context);
-    input.part = part_within(digitization_grid(*input.shape, spacing), input.volume.grid());
+    input.voxels = digitize(wide, spacing, run.context);
+    input.part = part_within(digitization_grid(*input.shape, spacing), input.grid());
   } else {
-    input.volume = digitize(*input.shape, spacing, run.context);
+    input.voxels = digitize(*input.shape, spacing, run.context);
   }
   return input;
 }
@@ -101,7 +102,8 @@ Input read_file(Run& run) {
   }
   Input input;
   input.border = options.border.value_or(Border::closed);
-  input.volume = read_binary(*source, selection, run.context);
+  input.world = source->world();
+  input.voxels = read_binary(*source, selection, run.context);
   return input;
 }
 
@@ -116,10 +118,14 @@ Input read_input(Run& run) {
   const Stopwatch watch(run.report.timings.read);
   const bool is_shape = run.options.input.rfind("shape:", 0) == 0;
   Input input = is_shape ? digitized(run) : read_file(run);
-  const Grid& grid = input.volume.grid();
-  const Index inside = input.volume.count();
+  const Grid& grid = input.grid();
+  const Index inside = std::get<BinaryVolume>(input.voxels).count();
   run.report.input = InputReport{is_shape ? "shape:" + input.shape->name() : run.options.input,
-                                 grid.size, grid.spacing, grid.origin, inside};
+                                 grid.size,
+                                 grid.spacing,
+                                 input.world(grid.origin),
+                                 input.world.rotation,
+                                 inside};
   if (inside == 0) {
     throw InputError(
         "'" + run.options.input + "': no voxel is inside; " +

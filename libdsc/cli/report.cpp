@@ -17,11 +17,14 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json numbers(const Vec3& v) { return Json::array({number(v[0]), number(v[1]), number(v[2])}); }
 
 Json json_of(const InputReport& input) {
-  return {{"name", input.name},
-          {"size", input.size},
-          {"spacing", numbers(input.spacing)},
-          {"origin", numbers(input.origin)},
-          {"voxels_inside", input.inside}};
+  return {
+      {"name", input.name},
+      {"size", input.size},
+      {"spacing", numbers(input.spacing)},
+      {"origin", numbers(input.origin)},
+      {"direction", Json::array({numbers(input.direction.row(0)), numbers(input.direction.row(1)),
+                                 numbers(input.direction.row(2))})},
+      {"voxels_inside", input.inside}};
 }
 
 Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {

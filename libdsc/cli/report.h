@@ -16,8 +16,9 @@ struct InputReport {
   std::string name;  ///< the file, or the shape with all its parameters
   Index3 size{0, 0, 0};
   Vec3 spacing{1., 1., 1.};
-  Vec3 origin{0., 0., 0.};
-  Index inside = 0;  ///< voxels
+  Vec3 origin{0., 0., 0.};            ///< world position of the centre of voxel (0, 0, 0)
+  Mat3 direction = Mat3::Identity();  ///< columns: the world directions of the volume's axes
+  Index inside = 0;                   ///< voxels
 };
 
 struct NormalsReport {

@@ -1,6 +1,7 @@
 #include "libdsc/cli/stages.h"
 
 #include "libdsc/calculus/embedding.h"
+#include "libdsc/io/world_result.h"
 #include "libdsc/normals/surface_normals.h"
 
 #include <algorithm>
@@ -8,13 +9,18 @@
 
 namespace dsc::cli {
 
+namespace {
+
+/// \throws InputError where it has no face, though voxels are inside.
 DigitalSurface extract(const Input& input, Run& run) {
   const Stopwatch watch(run.report.timings.extract);
   ExtractOptions options;
   options.adjacency = run.options.adjacency;
   options.border = input.border;
   options.part = input.part;
-  DigitalSurface surface = extract_surface(input.volume, options, run.context);
+  DigitalSurface surface =
+      std::visit([&](const auto& volume) { return extract_surface(volume, options, run.context); },
+                 input.voxels);
   run.report.surface = surface.counts();
   if (surface.face_count() == 0) {
     throw InputError("'" + run.options.input +
@@ -24,16 +30,29 @@ DigitalSurface extract(const Input& input, Run& run) {
   return surface;
 }
 
-void estimate_normals(const Input& input, DigitalSurface& surface, Run& run) {
+}  // namespace
+
+Scene open_scene(Run& run) {
+  Input input = read_input(run);
+  DigitalSurface surface = extract(input, run);
+  return {std::move(input), std::move(surface)};
+}
+
+void estimate_normals(Scene& scene, Run& run) {
+  const Input& input = scene.input;
+  DigitalSurface& surface = scene.surface;
   const Stopwatch watch(run.report.timings.normals);
   NormalReport report;
   switch (run.options.estimator) {
     case Estimator::integral_invariant: {
       IntegralInvariantOptions options;
-      options.radius =
-          ball_radius(run.options, input.shape != nullptr, input.volume.grid().spacing);
+      options.radius = ball_radius(run.options, input.shape != nullptr, input.grid().spacing);
       options.centre = run.options.centre;
-      report = integral_invariant_normals(surface, input.volume, options, run.context);
+      report = std::visit(
+          [&](const auto& volume) {
+            return integral_invariant_normals(surface, volume, options, run.context);
+          },
+          input.voxels);
       break;
     }
     case Estimator::trivial:
@@ -52,10 +71,18 @@ void estimate_normals(const Input& input, DigitalSurface& surface, Run& run) {
 }
 
 Scene prepare_scene(Run& run) {
-  Input input = read_input(run);
-  DigitalSurface surface = extract(input, run);
-  if (run.options.projected) estimate_normals(input, surface, run);
-  return {std::move(input), std::move(surface)};
+  Scene scene = open_scene(run);
+  if (run.options.projected) estimate_normals(scene, run);
+  return scene;
+}
+
+Eigen::VectorXd sample_at_vertices(const Expression& f, const Scene& scene, Run& run) {
+  const Vec3View positions = scene.surface.positions();
+  const RigidMap& world = scene.input.world;
+  if (world.is_identity()) return f(positions, run.context);
+  Eigen::Matrix3Xd points(3, positions.size);
+  for (Index v = 0; v < positions.size; ++v) points.col(v) = world(positions[v]);
+  return f({points.data(), points.cols()}, run.context);
 }
 
 FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run) {
@@ -82,8 +109,8 @@ void note_calculus(Index clamped_faces, Run& run) {
   run.report.calculus = CalculusReport{run.options.projected, run.options.lambda, clamped_faces};
 }
 
-std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run) {
-  const Vec3View positions = surface.positions();
+std::vector<VertexId> find_sources(const Scene& scene, Run& run) {
+  const Vec3View positions = scene.surface.positions();
   std::vector<VertexId> sources;
   for (const std::int64_t id : run.options.source_vertices) {
     if (id < 0 || id >= positions.size) {
@@ -92,7 +119,8 @@ std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run) {
     }
     sources.push_back(static_cast<VertexId>(id));
   }
-  for (const Vec3& point : run.options.sources) {
+  for (const Vec3& place : run.options.sources) {
+    const Vec3 point = scene.input.world.inverse(place);
     Index nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (Index v = 0; v < positions.size; ++v) {
@@ -110,10 +138,12 @@ std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run) {
   return sources;
 }
 
-void write_outputs(const Result& result, Run& run) {
+void write_outputs(const Scene& scene, const Result& result, Run& run) {
+  if (run.options.outputs.empty()) return;
   const Stopwatch watch(run.report.timings.write);
+  const WorldResult placed(result, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
-    const std::vector<std::string> left_out = write_result(path, result, run.context);
+    const std::vector<std::string> left_out = write_result(path, placed.get(), run.context);
     for (const std::string& field : left_out) {
       run.warn("'" + path + "' has no room for " + field + "; write .ply or .vtp as well");
     }

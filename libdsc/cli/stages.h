@@ -8,23 +8,30 @@
 #include "libdsc/cli/run.h"
 #include "libdsc/io/results.h"
 #include "libdsc/surface/digital_surface.h"
+#include "libdsc/voxels/expression.h"
 
 #include <vector>
 
 namespace dsc::cli {
 
-/// The surface of the input. \throws InputError where it has no face, though voxels are inside.
-DigitalSurface extract(const Input& input, Run& run);
-
-/// Estimates normals as the options say and writes them to the surface.
-void estimate_normals(const Input& input, DigitalSurface& surface, Run& run);
-
-/// All of the above, normals only for the projected calculus.
+/// What every command works on.
 struct Scene {
   Input input;
   DigitalSurface surface;
 };
+
+/// Reads the input and extracts its surface. \throws InputError where it has no face, though voxels
+/// are inside.
+Scene open_scene(Run& run);
+
+/// Estimates normals as the options say and writes them to the surface.
+void estimate_normals(Scene& scene, Run& run);
+
+/// Both, normals only for the projected calculus.
 Scene prepare_scene(Run& run);
+
+/// f at the world positions of the vertices.
+Eigen::VectorXd sample_at_vertices(const Expression& f, const Scene& scene, Run& run);
 
 /// The mesh that the calculus reads: naive where the options ask for it.
 FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run);
@@ -36,12 +43,12 @@ Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options);
 /// Puts the calculus into the report.
 void note_calculus(Index clamped_faces, Run& run);
 
-/// The vertex ids of the options' sources: the vertex nearest in position to each point, lowest id
+/// The vertex ids of the options' sources: the vertex nearest to each point of the world, lowest id
 /// first among equals, and the ids given. Sorted, each once. \throws UsageError for an id that the
 /// surface does not have.
-std::vector<VertexId> find_sources(const DigitalSurface& surface, Run& run);
+std::vector<VertexId> find_sources(const Scene& scene, Run& run);
 
-/// Writes the result to every output.
-void write_outputs(const Result& result, Run& run);
+/// Writes the result to every output, as it lies in the world.
+void write_outputs(const Scene& scene, const Result& result, Run& run);
 
 }  // namespace dsc::cli

@@ -11,11 +11,13 @@
 /// - `.npy`, versions 1 to 3: a 3-D array indexed [z][y][x], in C or Fortran order, of bool or
 ///   signed or unsigned integers of 1 to 8 bytes, either byte order. Spacing 1.
 ///
-/// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k).
+/// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k), which is also its place in
+/// the world.
 #pragma once
 
 #include "libdsc/base/context.h"
 #include "libdsc/voxels/grid.h"
+#include "libdsc/voxels/rigid_map.h"
 
 #include <cstdint>
 #include <functional>
@@ -48,6 +50,8 @@ class VolumeSource {
   virtual ~VolumeSource() = default;
 
   virtual const Grid& grid() const = 0;
+  /// From grid().position() to the world; the identity for formats that know of no world.
+  virtual RigidMap world() const { return {}; }
   /// True: slices are of constant z, and (x, y, z) is at x + X (y + Y (z - first)) of its slab.
   /// False (Fortran order): slices are of constant x, and it is at z + Z (y + Y (x - first)).
   virtual bool x_fastest() const = 0;

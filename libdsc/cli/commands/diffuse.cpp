@@ -7,7 +7,7 @@ namespace dsc::cli {
 void run_diffuse(Run& run) {
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene.surface, run);
-  const std::vector<VertexId> sources = find_sources(scene.surface, run);
+  const std::vector<VertexId> sources = find_sources(scene, run);
 
   Timings& timings = run.report.timings;
   DiffusionOptions options;
@@ -33,7 +33,7 @@ void run_diffuse(Run& run) {
   }
   run.report.result_name = "heat";
   run.report.result = statistics_of(heat);
-  write_outputs({mesh, {scalar_field("heat", FieldOn::vertex, heat)}}, run);
+  write_outputs(scene, {mesh, {scalar_field("heat", FieldOn::vertex, heat)}}, run);
 }
 
 }  // namespace dsc::cli

@@ -77,7 +77,7 @@ void measure_error(const ImplicitShape& shape, const FlatMesh& mesh,
 void run_geodesic(Run& run) {
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene.surface, run);
-  const std::vector<VertexId> sources = find_sources(scene.surface, run);
+  const std::vector<VertexId> sources = find_sources(scene, run);
   const GeodesicResult result = solve(mesh, sources, run);
 
   note_calculus(result.report.clamped_faces, run);
@@ -85,7 +85,7 @@ void run_geodesic(Run& run) {
   run.report.result_name = "distance";
   run.report.result = statistics_of(result.distance);
   if (scene.input.shape) measure_error(*scene.input.shape, mesh, sources, result.distance, run);
-  write_outputs({mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}}, run);
+  write_outputs(scene, {mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}}, run);
 }
 
 }  // namespace dsc::cli

@@ -9,8 +9,8 @@ namespace {
 
 /// f at every vertex: where the vertices digitise a shape, at the shape's points closest to them.
 Eigen::VectorXd sample(const Expression& f, const Scene& scene, Run& run) {
+  if (!scene.input.shape) return sample_at_vertices(f, scene, run);
   const Vec3View positions = scene.surface.positions();
-  if (!scene.input.shape) return f(positions, run.context);
   const ProjectedPoints projected = project_points(*scene.input.shape, positions, run.context);
   if (projected.failures > 0) {
     run.warn("the closest point of the shape was not found for " +
@@ -58,7 +58,8 @@ void run_gradient(Run& run) {
   run.report.result_name = "|gradient|";
   run.report.result = statistics_of(lengths);
   if (scene.input.shape) measure_error(f, scene, gradients, run);
-  write_outputs({mesh,
+  write_outputs(scene,
+                {mesh,
                  {vector_field("gradient", {"gx", "gy", "gz"}, FieldOn::face,
                                {gradients.data(), gradients.cols()})}},
                 run);

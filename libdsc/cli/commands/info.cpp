@@ -3,9 +3,6 @@
 
 namespace dsc::cli {
 
-void run_info(Run& run) {
-  const Input input = read_input(run);
-  extract(input, run);
-}
+void run_info(Run& run) { open_scene(run); }
 
 }  // namespace dsc::cli

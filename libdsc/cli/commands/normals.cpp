@@ -26,18 +26,19 @@ Eigen::VectorXd angles(const Vec3View& estimated, const Eigen::Matrix3Xd& exact,
 }  // namespace
 
 void run_normals(Run& run) {
-  const Input input = read_input(run);
-  DigitalSurface surface = extract(input, run);
-  estimate_normals(input, surface, run);
+  Scene scene = open_scene(run);
+  estimate_normals(scene, run);
 
-  if (input.shape && run.options.estimator != Estimator::analytic) {
+  const DigitalSurface& surface = scene.surface;
+  if (scene.input.shape && run.options.estimator != Estimator::analytic) {
     const NormalField exact =
-        analytic_normals(*input.shape, surface.grid(), surface.surfels(), run.context);
+        analytic_normals(*scene.input.shape, surface.grid(), surface.surfels(), run.context);
     const Eigen::VectorXd error = angles(surface.normals(), exact.u, run.context);
     run.report.error_name = "angle to the exact normal, radians";
     run.report.error = error_norms(error);
   }
-  write_outputs({surface.flat(),
+  write_outputs(scene,
+                {surface.flat(),
                  {vector_field("normal", {"nx", "ny", "nz"}, FieldOn::face, surface.normals())}},
                 run);
 }

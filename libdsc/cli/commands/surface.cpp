@@ -4,9 +4,8 @@
 namespace dsc::cli {
 
 void run_surface(Run& run) {
-  const Input input = read_input(run);
-  const DigitalSurface surface = extract(input, run);
-  write_outputs({surface.flat(false), {}}, run);
+  const Scene scene = open_scene(run);
+  write_outputs(scene, {scene.surface.flat(false), {}}, run);
 }
 
 }  // namespace dsc::cli
