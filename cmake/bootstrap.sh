@@ -18,7 +18,7 @@ say() { printf '== %s\n' "$*"; }
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
-test_packages=(libgtest-dev)
+test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -38,7 +38,7 @@ install_missing() {
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'oneTBB' 'CLI11' \
       'nlohmann-json'
-    [[ $mode == demo ]] || printf '     %s\n' 'GoogleTest'
+    [[ $mode == demo ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
     say "Going on with what is there."
     return
   fi

@@ -1,38 +1,24 @@
 #include "libdsc/solve/ldlt_factor.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/solve/fill_order.h"
 
-#include <iostream>  // which Eigen/MetisSupport forgets
-
-#include <Eigen/MetisSupport>
-#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 
 #include <limits>
-#include <mutex>
 #include <new>
 #include <string>
 
 namespace dsc {
 namespace {
 
-/// METIS draws from the C library's one random sequence, which it seeds anew at each call: one call
-/// at a time, so that the order, and with it every bit of the solution, is always the same.
+/// What Eigen's factorization calls.
 template <FillOrder kOrder>
 struct Order {
-  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  using PermutationType = FillPermutation;
 
-  template <class Matrix>
-  void operator()(const Matrix& A, PermutationType& order) const {
-    // METIS gains nothing on small systems, and wants a graph with edges.
-    if (kOrder == FillOrder::minimum_degree || A.cols() < 1000 || A.nonZeros() < 2 * A.cols()) {
-      Eigen::AMDOrdering<int>()(A, order);
-      return;
-    }
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    Eigen::MetisOrdering<int>()(A, order);
-    if (order.size() != A.cols()) throw LimitError("METIS found no order: out of memory");
+  void operator()(const SparseMatrix& A, PermutationType& order) const {
+    order = fill_order(A, kOrder);
   }
 };
 

@@ -1,5 +1,8 @@
 // An OpenMesh program that uses the installed headers and the installed library: the surface of one
 // voxel, seen as a mesh.
+#ifdef WITH_CHOLMOD
+#include <libdsc/solve/cholmod_solver.h>
+#endif
 #include <libdsc/surface/digital_surface.h>
 #include <libdsc/surface/extract.h>
 
@@ -26,5 +29,11 @@ int main() {
             << " faces, area " << area << '\n';
   const bool right = mesh.n_vertices() == 8 && mesh.n_edges() == 12 && mesh.n_faces() == 6 &&
                      area == 2 * (1 * 2 + 2 * 3 + 3 * 1);
+#ifdef WITH_CHOLMOD
+  dsc::SparseMatrix A(2, 2);
+  A.insert(0, 0) = A.insert(1, 1) = 4.;
+  const Eigen::VectorXd x = dsc::make_cholmod_solver(A)->solve(Eigen::Vector2d(4., 8.)).x;
+  if (x != Eigen::Vector2d(1., 2.)) return 1;
+#endif
   return right ? 0 : 1;
 }
