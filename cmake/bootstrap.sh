@@ -6,10 +6,12 @@
 #                                      FILE (.vol, .longvol, .npy) or on a built-in shape; the
 #                                      results are in out/
 #   ./cmake/bootstrap.sh test          builds everything, runs every test
+#   ./cmake/bootstrap.sh figures       builds the program, measures the README's table of figures
+#                                      anew and writes it there; real voxels from DSC_TEST_DATA
 set -euo pipefail
 
 usage() {
-  sed -n '5,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -38,7 +40,7 @@ install_missing() {
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'oneTBB' 'CLI11' \
       'nlohmann-json'
-    [[ $mode == demo ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
+    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
     say "Going on with what is there."
     return
   fi
@@ -103,6 +105,13 @@ case $mode in
     configure_and_build dev
     say "Testing"
     exec ctest --preset dev --no-tests=error --output-on-failure -j2
+    ;;
+  figures)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
+    exec ./cmake/figures.sh build/release/bin/dsc
     ;;
   *) usage ;;
 esac
