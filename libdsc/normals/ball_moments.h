@@ -48,7 +48,7 @@ class BallScanner {
   BallMoments operator()(const Index3& centre) const;
 
   /// The same by scanning each row's runs: the oracle of the vector path, and the path for machines
-  /// without it and for balls wider than its registers.
+  /// without it.
   BallMoments plain(const Index3& centre) const;
 
   /// Whether operator() goes through the vector path for every kind of centre.

@@ -85,6 +85,14 @@ TEST(BallMoments, EqualBruteForceForEveryRadius) {
   }
 }
 
+TEST(BallMoments, EqualBruteForceForBallsOfManyBlocks) {
+  const BinaryVolume volume = test::random_volume({{180, 150, 140}}, 0.5, 11);
+  for (const double r : {48., 66.6}) {
+    expect_equal_to_brute_force(volume, r, Centres::surfels, 2);
+    expect_equal_to_brute_force(volume, r, Centres::voxels, 2);
+  }
+}
+
 TEST(BallMoments, EqualBruteForceOnFullAndSparseVolumes) {
   const Grid grid{{130, 20, 33}};
   for (const double density : {1., 0.97, 0.02}) {
