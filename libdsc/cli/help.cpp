@@ -12,7 +12,9 @@ std::string help_footer() {
   for (const std::string& line : known_shapes()) text += "  " + line + "\n";
   text +=
       "\nResults: " + result_endings() +
-      "\n\n"
+      "\n"
+      "With --labels and --between the faces also carry label_inner and label_outer: surfaces run\n"
+      "from the smaller label to the larger, 0 is always outside.\n\n"
       "Exit codes: 0 done, 2 wrong usage, 3 bad input or output, 4 too large, 5 a solver failed,\n"
       "130 interrupted.\n\n"
       "Start here:\n"
@@ -32,6 +34,8 @@ std::string help_footer(Command command) {
     case Command::surface:
       return "Examples:\n"
              "  dsc surface object.vol -o surface.ply\n"
+             "  dsc surface labels.npy --labels all -o interfaces.vtp\n"
+             "  dsc surface labels.npy --between 3,7 -o contact.ply\n"
              "  dsc surface ct.npy --threshold 300,3000 --border open -o bone.vtp\n"
              "  dsc surface shape:goursat --gridstep 0.2 --adjacency exterior -o goursat.ply";
     case Command::normals:

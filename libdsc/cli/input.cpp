@@ -1,6 +1,7 @@
 #include "libdsc/cli/input.h"
 
 #include "libdsc/io/read_binary.h"
+#include "libdsc/io/read_labels.h"
 #include "libdsc/normals/radius.h"
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shape_spec.h"
@@ -17,6 +18,7 @@ class RespacedSource final : public VolumeSource {
       : source_(std::move(source)), grid_(source_->grid()) {
     grid_.spacing = spacing;
   }
+  const std::string& path() const override { return source_->path(); }
   const Grid& grid() const override { return grid_; }
   RigidMap world() const override { return source_->world(); }
   bool x_fastest() const override { return source_->x_fastest(); }
@@ -103,7 +105,11 @@ Input read_file(Run& run) {
   Input input;
   input.border = options.border.value_or(Border::closed);
   input.world = source->world();
-  input.voxels = read_binary(*source, selection, run.context);
+  if (options.labelled()) {
+    input.voxels = read_labels(*source, run.context);
+  } else {
+    input.voxels = read_binary(*source, selection, run.context);
+  }
   return input;
 }
 
@@ -118,14 +124,21 @@ Input read_input(Run& run) {
   const Stopwatch watch(run.report.timings.read);
   const bool is_shape = run.options.input.rfind("shape:", 0) == 0;
   Input input = is_shape ? digitized(run) : read_file(run);
+  const auto* labels = std::get_if<LabelVolume>(&input.voxels);
+  const Index inside =
+      labels != nullptr ? labels->count(run.context) : std::get<BinaryVolume>(input.voxels).count();
   const Grid& grid = input.grid();
-  const Index inside = std::get<BinaryVolume>(input.voxels).count();
-  run.report.input = InputReport{is_shape ? "shape:" + input.shape->name() : run.options.input,
-                                 grid.size,
-                                 grid.spacing,
-                                 input.world(grid.origin),
-                                 input.world.rotation,
-                                 inside};
+  InputReport report;
+  report.name = is_shape ? "shape:" + input.shape->name() : run.options.input;
+  report.size = grid.size;
+  report.spacing = grid.spacing;
+  report.origin = input.world(grid.origin);
+  report.direction = input.world.rotation;
+  report.inside = inside;
+  if (labels != nullptr) {
+    report.labels = static_cast<Index>(labels->labels(run.context).size());
+  }
+  run.report.input = std::move(report);
   if (inside == 0) {
     throw InputError(
         "'" + run.options.input + "': no voxel is inside; " +

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace dsc::cli {
 
@@ -44,6 +45,18 @@ Vec3 parse_spacing(std::string_view text, const std::string& option) {
     throw UsageError(option + " " + std::string(text) + ": must be positive");
   }
   return spacing;
+}
+
+LabelPair parse_labels(std::string_view text, const std::string& option) {
+  const auto is_label = [](double n) {
+    return n >= 0 && n <= std::numeric_limits<Label>::max() && n == std::floor(n);
+  };
+  const std::vector<double> n = parse_numbers(text, option);
+  if (n.size() != 2 || !is_label(n[0]) || !is_label(n[1]) || n[0] == n[1]) {
+    throw UsageError(option + " " + std::string(text) +
+                     ": expected A,B, two different labels from 0 to 4294967295");
+  }
+  return {static_cast<Label>(n[0]), static_cast<Label>(n[1])};
 }
 
 }  // namespace dsc::cli

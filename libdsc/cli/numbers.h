@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libdsc/base/types.h"
+#include "libdsc/voxels/label_volume.h"
 
 #include <string>
 #include <string_view>
@@ -18,5 +19,8 @@ Vec3 parse_point(std::string_view text, const std::string& option);
 
 /// One positive number for all axes, or three. \throws UsageError naming `option`.
 Vec3 parse_spacing(std::string_view text, const std::string& option);
+
+/// Two different labels. \throws UsageError naming `option`.
+LabelPair parse_labels(std::string_view text, const std::string& option);
 
 }  // namespace dsc::cli

@@ -39,6 +39,16 @@ void add_input(CLI::App& app, Options& o) {
   app.add_option("--label", o.labels, "voxels with this value are inside; again for more")
       ->type_name("N")
       ->allow_extra_args(false);
+  add_choice(app, "--labels", o.all_labels, {{"all", true}},
+             "every value is a label, 0 the outside: extract every interface between two labels");
+  app.add_option_function<std::vector<std::string>>(
+         "--between",
+         [&o](const std::vector<std::string>& all) {
+           for (const std::string& text : all) o.between.push_back(parse_labels(text, "--between"));
+         },
+         "of all labels' interfaces only that between A and B, 0 being the outside; again for more")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
   add_choice(app, "--adjacency", o.adjacency,
              {{"interior", Adjacency::interior}, {"exterior", Adjacency::exterior}},
              "which surfels are linked where four meet at an edge (default: interior)");
@@ -187,8 +197,21 @@ void check(const Options& o) {
   if (shape && !o.gridstep) {
     throw UsageError("'" + o.input + "' needs --gridstep H, the edge of a voxel");
   }
-  if (shape && (o.threshold || !o.labels.empty())) {
-    throw UsageError("--threshold and --label choose voxels of a volume file; a shape has none");
+  if (shape && (o.threshold || !o.labels.empty() || o.labelled())) {
+    throw UsageError(
+        "--threshold, --label, --labels and --between choose voxels of a volume file; a shape has "
+        "none");
+  }
+  if (o.labelled() && (o.threshold || !o.labels.empty())) {
+    throw UsageError(
+        "--threshold and --label make one object of the voxels, --labels and --between keep their "
+        "labels apart; give one of them");
+  }
+  if (o.all_labels && !o.between.empty()) {
+    throw UsageError("--labels all has every interface, --between one of them; give one of them");
+  }
+  if (o.labelled() && o.centre == BallCentre::voxel_pair) {
+    throw UsageError("--centre pair is not there for labels: their ball is centred on the surfel");
   }
   if (!shape && o.estimator == Estimator::analytic) {
     throw UsageError("--estimator analytic needs a shape: voxels have no exact normals");

@@ -5,6 +5,7 @@
 #include "libdsc/base/types.h"
 #include "libdsc/normals/integral_invariant.h"
 #include "libdsc/surface/extract.h"
+#include "libdsc/voxels/label_volume.h"
 
 #include <array>
 #include <cstdint>
@@ -29,8 +30,13 @@ struct Options {
   std::optional<Vec3> gridstep;                    ///< world units per axis
   std::optional<std::array<double, 2>> threshold;  ///< inside is LO <= value <= HI
   std::vector<std::int64_t> labels;                ///< inside is any of these
+  bool all_labels = false;                         ///< every value is a label, 0 the outside
+  std::vector<LabelPair> between;                  ///< so too; only these interfaces
   std::optional<Border> border;                    ///< not given: open for shapes cut by their box
   Adjacency adjacency = Adjacency::interior;
+
+  /// Whether the input is a label image.
+  bool labelled() const { return all_labels || !between.empty(); }
 
   // how normals and operators are made
   Estimator estimator = Estimator::integral_invariant;

@@ -17,14 +17,15 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json numbers(const Vec3& v) { return Json::array({number(v[0]), number(v[1]), number(v[2])}); }
 
 Json json_of(const InputReport& input) {
-  return {
-      {"name", input.name},
-      {"size", input.size},
-      {"spacing", numbers(input.spacing)},
-      {"origin", numbers(input.origin)},
-      {"direction", Json::array({numbers(input.direction.row(0)), numbers(input.direction.row(1)),
-                                 numbers(input.direction.row(2))})},
-      {"voxels_inside", input.inside}};
+  const Mat3& d = input.direction;
+  Json json = {{"name", input.name},
+               {"size", input.size},
+               {"spacing", numbers(input.spacing)},
+               {"origin", numbers(input.origin)},
+               {"direction", {numbers(d.row(0)), numbers(d.row(1)), numbers(d.row(2))}},
+               {"voxels_inside", input.inside}};
+  if (input.labels) json["labels"] = *input.labels;
+  return json;
 }
 
 Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {
@@ -34,15 +35,18 @@ Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {
           {"components", counts.components},
           {"boundary_edges", counts.boundary_edges},
           {"nonmanifold_edges", counts.nonmanifold_edges},
+          {"junction_edges", counts.junction_edges},
           {"pinched_vertices", counts.pinched_vertices},
           {"euler", counts.euler},
           {"adjacency", adjacency == Adjacency::interior ? "interior" : "exterior"}};
 }
 
 Json json_of(const NormalsReport& normals) {
-  return {{"estimator", normals.estimator},
-          {"radius", number(normals.radius)},
-          {"fallbacks", normals.fallbacks}};
+  Json json = {{"estimator", normals.estimator},
+               {"radius", number(normals.radius)},
+               {"fallbacks", normals.fallbacks}};
+  if (normals.third_label_faces) json["third_label_faces"] = *normals.third_label_faces;
+  return json;
 }
 
 Json json_of(const CalculusReport& calculus) {

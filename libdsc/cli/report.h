@@ -19,12 +19,15 @@ struct InputReport {
   Vec3 origin{0., 0., 0.};            ///< world position of the centre of voxel (0, 0, 0)
   Mat3 direction = Mat3::Identity();  ///< columns: the world directions of the volume's axes
   Index inside = 0;                   ///< voxels
+  std::optional<Index> labels;        ///< of a label image: how many labels occur, 0 left out
 };
 
 struct NormalsReport {
   std::string estimator;
   double radius = 0;    ///< world units; 0 where the estimator has none
   Index fallbacks = 0;  ///< faces whose estimate had to be replaced
+  /// Of a label image: faces whose ball meets a label beyond their own two.
+  std::optional<Index> third_label_faces;
 };
 
 struct CalculusReport {

@@ -11,6 +11,26 @@ namespace dsc::cli {
 
 namespace {
 
+/// The labels of the faces as fields.
+class LabelColumns {
+ public:
+  explicit LabelColumns(std::span<const LabelPair> labels)
+      : inner_(static_cast<Index>(labels.size())), outer_(inner_.size()) {
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      inner_[static_cast<Index>(f)] = labels[f][0];
+      outer_[static_cast<Index>(f)] = labels[f][1];
+    }
+  }
+  void append_to(std::vector<Field>& fields) const {
+    if (inner_.size() == 0) return;
+    fields.push_back(scalar_field("label_inner", FieldOn::face, inner_));
+    fields.push_back(scalar_field("label_outer", FieldOn::face, outer_));
+  }
+
+ private:
+  Eigen::VectorXd inner_, outer_;
+};
+
 /// \throws InputError where it has no face, though voxels are inside.
 DigitalSurface extract(const Input& input, Run& run) {
   const Stopwatch watch(run.report.timings.extract);
@@ -18,11 +38,15 @@ DigitalSurface extract(const Input& input, Run& run) {
   options.adjacency = run.options.adjacency;
   options.border = input.border;
   options.part = input.part;
+  options.between = run.options.between;
   DigitalSurface surface =
       std::visit([&](const auto& volume) { return extract_surface(volume, options, run.context); },
                  input.voxels);
   run.report.surface = surface.counts();
   if (surface.face_count() == 0) {
+    if (!options.between.empty()) {
+      throw InputError("'" + run.options.input + "': no face lies between the labels given");
+    }
     throw InputError("'" + run.options.input +
                      "': the surface has no face; its sides on the border of the volume were left "
                      "open");
@@ -63,7 +87,11 @@ void estimate_normals(Scene& scene, Run& run) {
       break;
   }
   run.report.normals =
-      NormalsReport{name_of(run.options.estimator), report.radius, report.fallbacks};
+      NormalsReport{name_of(run.options.estimator), report.radius, report.fallbacks, {}};
+  const bool balls = run.options.estimator == Estimator::integral_invariant;
+  if (balls && run.options.labelled()) {
+    run.report.normals->third_label_faces = report.third_label_faces;
+  }
   if (report.fallbacks > 0) {
     run.warn(std::to_string(report.fallbacks) + " of " + std::to_string(surface.face_count()) +
              " faces keep their own normal: the estimator had no answer there");
@@ -141,7 +169,10 @@ std::vector<VertexId> find_sources(const Scene& scene, Run& run) {
 void write_outputs(const Scene& scene, const Result& result, Run& run) {
   if (run.options.outputs.empty()) return;
   const Stopwatch watch(run.report.timings.write);
-  const WorldResult placed(result, scene.input.world, run.context);
+  const LabelColumns labels(scene.surface.labels());
+  Result labelled = result;
+  labels.append_to(labelled.fields);
+  const WorldResult placed(labelled, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
     const std::vector<std::string> left_out = write_result(path, placed.get(), run.context);
     for (const std::string& field : left_out) {

@@ -23,6 +23,9 @@ std::string text_of(const SurfaceCounts& c) {
   if (c.nonmanifold_edges > 0) {
     text += ", " + counted(c.nonmanifold_edges, "non-manifold edge", "non-manifold edges");
   }
+  if (c.junction_edges > 0) {
+    text += ", " + counted(c.junction_edges, "junction edge", "junction edges");
+  }
   if (c.pinched_vertices > 0) {
     text += ", " + counted(c.pinched_vertices, "pinched vertex", "pinched vertices");
   }
@@ -35,14 +38,19 @@ std::string text_of(const InputReport& input) {
   const std::string spacing = h[0] == h[1] && h[1] == h[2]
                                   ? fmt::format("{:g}", h[0])
                                   : fmt::format("{:g} x {:g} x {:g}", h[0], h[1], h[2]);
-  return fmt::format("{}: {} x {} x {} voxels of {}, {} inside", input.name, x, y, z, spacing,
-                     input.inside);
+  std::string text = fmt::format("{}: {} x {} x {} voxels of {}, {} inside", input.name, x, y, z,
+                                 spacing, input.inside);
+  if (input.labels) text += ", " + counted(*input.labels, "label", "labels");
+  return text;
 }
 
 std::string text_of(const NormalsReport& normals) {
   std::string text = normals.estimator == "ii" ? "integral invariant" : normals.estimator;
   if (normals.radius > 0) text += fmt::format(", radius {:.4g}", normals.radius);
   if (normals.fallbacks > 0) text += ", " + counted(normals.fallbacks, "fallback", "fallbacks");
+  if (normals.third_label_faces.value_or(0) > 0) {
+    text += ", a third label near " + counted(*normals.third_label_faces, "face", "faces");
+  }
   return text;
 }
 

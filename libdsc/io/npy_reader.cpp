@@ -146,6 +146,7 @@ class NpySource final : public VolumeSource {
     read_grid(header, offset);
   }
 
+  const std::string& path() const override { return file_.path(); }
   const Grid& grid() const override { return grid_; }
   bool x_fastest() const override { return !fortran_; }
 

@@ -181,6 +181,7 @@ class VolSource final : public VolumeSource {
     check_length();
   }
 
+  const std::string& path() const override { return file_.path(); }
   const Grid& grid() const override { return grid_; }
   bool x_fastest() const override { return true; }
 

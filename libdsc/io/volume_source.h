@@ -49,6 +49,8 @@ class VolumeSource {
   VolumeSource& operator=(const VolumeSource&) = delete;
   virtual ~VolumeSource() = default;
 
+  /// Of the file, for messages.
+  virtual const std::string& path() const = 0;
   virtual const Grid& grid() const = 0;
   /// From grid().position() to the world; the identity for formats that know of no world.
   virtual RigidMap world() const { return {}; }

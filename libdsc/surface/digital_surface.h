@@ -29,6 +29,7 @@ struct SurfaceCounts {
   Index components = 0;         ///< through shared pointels
   Index boundary_edges = 0;     ///< linels with exactly 1 surfel
   Index nonmanifold_edges = 0;  ///< linels with more than 2 surfels
+  Index junction_edges = 0;     ///< of these, linels where more than 2 labels meet
   Index pinched_vertices = 0;   ///< pointels with more than one umbrella
 };
 

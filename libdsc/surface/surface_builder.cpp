@@ -47,7 +47,7 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
   const Index pointels = surface_.vertex_count_;
   context.begin("link", 3);
   SurfaceCounts& counts = surface_.counts_;
-  counts = topology::count_glued(corners(), pointels, opposite_, junctions_, context);
+  counts = topology::count_glued(corners(), pointels, opposite_, junctions_, labels(), context);
   context.advance(1);
   const topology::MeshVertices vertices =
       topology::number_mesh_vertices(corners(), pointels, opposite_, junctions_, context);

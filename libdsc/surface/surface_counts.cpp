@@ -3,6 +3,9 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/base/union_find.h"
 
+#include <algorithm>
+#include <array>
+
 namespace dsc::topology {
 namespace {
 
@@ -17,11 +20,25 @@ struct Sides {
   }
 };
 
+/// How many labels the surfels of a linel separate; 0 without labels.
+Index meeting_labels(const Junction& j, std::span<const LabelPair> labels) {
+  if (labels.empty()) return 0;
+  std::array<Label, 8> found;
+  auto end = found.begin();
+  for (const SideCode s : j.sides) {
+    if (s == kNoSide) continue;
+    for (const Label label : labels[static_cast<std::size_t>(face_of(s))]) {
+      if (std::find(found.begin(), end, label) == end) *end++ = label;
+    }
+  }
+  return end - found.begin();
+}
+
 }  // namespace
 
 SurfaceCounts count_glued(std::span<const QuadCorners> corners, Index vertices,
                           std::span<const SideCode> opposite, std::span<const Junction> junctions,
-                          const Context& context) {
+                          std::span<const LabelPair> labels, const Context& context) {
   UnionFind components(vertices);
   Sides sides = parallel_reduce(
       context, static_cast<Index>(corners.size()), 8192, Sides{},
@@ -49,6 +66,7 @@ SurfaceCounts count_glued(std::span<const QuadCorners> corners, Index vertices,
     sides.edges -= here.edges - 1;  // one linel, however many edges of the mesh
     sides.unlinked -= here.unlinked;
     if (present > 2) ++counts.nonmanifold_edges;
+    if (present > 2 && meeting_labels(j, labels) > 2) ++counts.junction_edges;
   }
   counts.vertices = vertices;
   counts.faces = static_cast<Index>(corners.size());

@@ -11,9 +11,10 @@
 namespace dsc::topology {
 
 /// All counts but pinched_vertices. `corners` holds pointels in [0, vertices); `junctions` lists
-/// every linel with more than two surfels, or with two that are not linked.
+/// every linel with more than two surfels, or with two that are not linked; `labels` are those of
+/// the faces, empty without.
 SurfaceCounts count_glued(std::span<const QuadCorners> corners, Index vertices,
                           std::span<const SideCode> opposite, std::span<const Junction> junctions,
-                          const Context& context);
+                          std::span<const LabelPair> labels, const Context& context);
 
 }  // namespace dsc::topology

@@ -67,6 +67,20 @@ void LabelVolume::row(Index y, Index z, Label* out) const {
              labels_);
 }
 
+Index LabelVolume::count(const Context& context) const {
+  return std::visit(
+      [&](const auto& values) {
+        return parallel_reduce(
+            context, static_cast<Index>(values.size()), 1 << 18, Index{0},
+            [&](Index first, Index last) {
+              const auto zeros = std::count(values.begin() + first, values.begin() + last, 0);
+              return last - first - static_cast<Index>(zeros);
+            },
+            [](Index a, Index b) { return a + b; });
+      },
+      labels_);
+}
+
 std::vector<Label> LabelVolume::labels(const Context& context) const {
   using Set = std::vector<Label>;
   const Index slice = grid_.size[0] * grid_.size[1];

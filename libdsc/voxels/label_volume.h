@@ -51,6 +51,8 @@ class LabelVolume {
   /// Writes row (y, z) to out[0 … size x); zeros where it is outside the grid.
   void row(Index y, Index z, Label* out) const;
 
+  /// The number of voxels with a label other than 0.
+  Index count(const Context& context = {}) const;
   /// The labels that occur, 0 left out, ascending.
   std::vector<Label> labels(const Context& context = {}) const;
   /// The voxels that have one of the labels given.

@@ -60,6 +60,17 @@ TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
   expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--frob"}), 2, {"--frob"});
   expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--label", "1"}), 2, {"--label"});
   expect_refused(run_dsc({"info", "a.vol", "--threshold", "3,2"}), 2, {"--threshold", "LO"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--labels", "all"}), 2,
+                 {"--labels", "shape"});
+  expect_refused(run_dsc({"info", "a.vol", "--labels", "some"}), 2, {"--labels", "all"});
+  expect_refused(run_dsc({"info", "a.vol", "--labels", "all", "--label", "3"}), 2, {"--label"});
+  expect_refused(run_dsc({"info", "a.vol", "--labels", "all", "--between", "3,4"}), 2,
+                 {"--between"});
+  for (const std::string pair : {"3", "3,3", "3,4,5", "-1,2", "1.5,2", "1,4294967296"}) {
+    expect_refused(run_dsc({"info", "a.vol", "--between=" + pair}), 2, {"--between", pair, "A,B"});
+  }
+  expect_refused(run_dsc({"normals", "a.vol", "--labels", "all", "--centre", "pair"}), 2,
+                 {"--centre pair"});
   expect_refused(run_dsc({"surface", sphere, "--gridstep", "0.1"}), 2, {"--output"});
   expect_refused(run_dsc({"normals", sphere, "--gridstep", "0.1", "--estimator", "best"}), 2,
                  {"--estimator", "ii", "trivial", "analytic"});

@@ -140,7 +140,7 @@ TEST(Interruption, WhileFilesAreWrittenLeavesWholeFilesOnly) {
 }
 
 TEST(Progress, IsDrawnOnATerminalOnly) {
-  const Words command = {"surface", "shape:sphere", "--gridstep", "0.006", "-o"};
+  const Words command = {"surface", "shape:sphere", "--gridstep", "0.003", "-o"};
   const Folder folder;
   EXPECT_EQ(run_dsc(with(command, {folder / "s.csv"})).err, "");
 

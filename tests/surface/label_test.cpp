@@ -48,6 +48,34 @@ TEST(LabelSurface, RandomVolumesOfUpTo8LabelsAreSoundUnderBothAdjacencies) {
   }
 }
 
+/// Linels with more than two labels around them, counted from the voxels.
+Index count_junctions(const LabelVolume& volume) {
+  const Index3 n = volume.grid().size;
+  Index count = 0;
+  for (Index z = 0; z <= n[2]; ++z) {
+    for (Index y = 0; y <= n[1]; ++y) {
+      for (Index x = 0; x <= n[0]; ++x) {
+        const auto at = [&](Index i, Index j, Index k) { return volume(x - i, y - j, z - k); };
+        const std::set<Label> around[] = {{at(0, 0, 0), at(0, 1, 0), at(0, 0, 1), at(0, 1, 1)},
+                                          {at(0, 0, 0), at(1, 0, 0), at(0, 0, 1), at(1, 0, 1)},
+                                          {at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(1, 1, 0)}};
+        for (const auto& labels : around) count += labels.size() > 2 ? 1 : 0;
+      }
+    }
+  }
+  return count;
+}
+
+TEST(LabelSurface, JunctionsAreTheLinelsWhereMoreThanTwoLabelsMeet) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const auto volume = random_labels({6, 5, 4}, 1 + seed % 6, seed);
+    const SurfaceCounts counts = extract_surface(volume, {}, Context{1}).counts();
+    EXPECT_EQ(counts.junction_edges, count_junctions(volume)) << seed;
+    EXPECT_LE(counts.junction_edges, counts.nonmanifold_edges);
+    EXPECT_EQ(counts.junction_edges > 0, seed % 6 > 0);  // not of one label and the outside
+  }
+}
+
 TEST(LabelSurface, OneLabelIsTheBinarySurface) {
   const auto volume = random_labels({70, 5, 4}, 1, 3);
   const DigitalSurface labelled = extract_surface(volume);
@@ -90,6 +118,7 @@ TEST(LabelSurface, ThreeQuartersMeetInOneLineOfJunctions) {
   inner.border = Border::open;
   const DigitalSurface s = extract_surface(volume, inner);
   EXPECT_EQ(s.counts().nonmanifold_edges, n);
+  EXPECT_EQ(s.counts().junction_edges, n);
   EXPECT_EQ(s.counts().components, 1);  // glued along the junction
   EXPECT_EQ(s.counts().faces, 2 * n + 4 * n);
   // The mesh itself ends there: three sheets, sharing vertex ids and no vertex.
@@ -106,6 +135,17 @@ TEST(LabelSurface, TheOutsideIsNeverInside) {
     EXPECT_NE(pair[0], 0u);
     EXPECT_TRUE(pair[1] == 0 || pair[0] < pair[1]);
   }
+}
+
+TEST(LabelVolume, CountsVoxelsWithALabel) {
+  const auto volume = random_labels({70, 50, 90}, 3, 5, 2);
+  Index count = 0;
+  for (Index z = 0; z < 90; ++z) {
+    for (Index y = 0; y < 50; ++y) {
+      for (Index x = 0; x < 70; ++x) count += volume(x, y, z) != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(volume.count(), count);
 }
 
 TEST(LabelVolume, HoldsEveryWidthAndRefusesOthers) {
