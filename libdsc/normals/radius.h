@@ -18,6 +18,11 @@ double shape_radius(double h);
 /// features of a dozen voxels across survive.
 inline constexpr double kDataRadiusVoxels = 6.;
 
+/// The same for curvatures, which need a larger ball. On digital balls of radius 17 to 65 voxels
+/// the mean curvature (centred form) then errs by 13 to 17 % in the root of the mean square; with 6
+/// voxels by 20 to 35 %, and with 12 the small ones lose their shape.
+inline constexpr double kCurvatureRadiusVoxels = 8.;
+
 /// `voxels` edge lengths of the coarsest axis, world units.
 double data_radius(const Vec3& spacing, double voxels = kDataRadiusVoxels);
 
