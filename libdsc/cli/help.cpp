@@ -29,6 +29,7 @@ std::string help_footer(Command command) {
     case Command::info:
       return "Examples:\n"
              "  dsc info object.vol\n"
+             "  dsc info scan.raw --size 512,512,300 --type i16 --threshold 300,3000\n"
              "  dsc info labels.npy --label 3 --label 4 --report counts.json\n"
              "  dsc info shape:torus,R=2,r=0.5 --gridstep 0.05";
     case Command::surface:

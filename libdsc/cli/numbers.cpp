@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -45,6 +46,16 @@ Vec3 parse_spacing(std::string_view text, const std::string& option) {
     throw UsageError(option + " " + std::string(text) + ": must be positive");
   }
   return spacing;
+}
+
+Index3 parse_size(std::string_view text, const std::string& option) {
+  const std::vector<double> n = parse_numbers(text, option);
+  const bool whole = std::all_of(
+      n.begin(), n.end(), [](double v) { return v >= 1 && v <= 0x1p40 && v == std::floor(v); });
+  if (n.size() != 3 || !whole) {
+    throw UsageError(option + " " + std::string(text) + ": expected X,Y,Z, whole and positive");
+  }
+  return {static_cast<Index>(n[0]), static_cast<Index>(n[1]), static_cast<Index>(n[2])};
 }
 
 LabelPair parse_labels(std::string_view text, const std::string& option) {

@@ -20,6 +20,9 @@ Vec3 parse_point(std::string_view text, const std::string& option);
 /// One positive number for all axes, or three. \throws UsageError naming `option`.
 Vec3 parse_spacing(std::string_view text, const std::string& option);
 
+/// Three positive whole numbers. \throws UsageError naming `option`.
+Index3 parse_size(std::string_view text, const std::string& option);
+
 /// Two different labels. \throws UsageError naming `option`.
 LabelPair parse_labels(std::string_view text, const std::string& option);
 

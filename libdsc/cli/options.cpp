@@ -14,9 +14,43 @@
 namespace dsc::cli {
 namespace {
 
+/// What only raw files need. A layout without a size was asked for without --size.
+void add_raw(CLI::App& app, Options& o) {
+  const auto layout = [&o]() -> RawLayout& { return o.raw ? *o.raw : o.raw.emplace(); };
+  app.add_option_function<std::string>(
+         "--size",
+         [layout](const std::string& text) { layout().size = parse_size(text, "--size"); },
+         "voxels along x, y and z: INPUT is raw, x fastest, then y")
+      ->type_name("X,Y,Z");
+  app.add_option_function<std::string>(
+         "--type",
+         [&o, layout](const std::string& text) {
+           layout().type = value_type(text);
+           o.raw_type = true;
+         },
+         "the type of its values, little-endian")
+      ->type_name("u8|i8|u16|i16|u32|i32|u64|i64|f32|f64");
+  app.add_option_function<std::string>(
+         "--endian",
+         [layout](const std::string& text) {
+           if (text != "little" && text != "big") {
+             throw UsageError("--endian " + text + ": expected little|big");
+           }
+           layout().big_endian = text == "big";
+         },
+         "its byte order (default: little)")
+      ->type_name("little|big");
+  app.add_option_function<std::int64_t>(
+         "--offset", [layout](std::int64_t bytes) { layout().offset = bytes; },
+         "bytes before its first value (default: 0)")
+      ->type_name("BYTES")
+      ->check(CLI::NonNegativeNumber.description(""));
+  name_group(app, "Raw files");
+}
+
 void add_input(CLI::App& app, Options& o) {
   app.add_option("INPUT", o.input,
-                 "a volume file (.vol, .longvol, .npy) or shape:NAME[,key=value...]")
+                 "a volume file (" + volume_endings() + ", or raw) or shape:NAME[,key=value...]")
       ->required()
       ->type_name("");
   app.add_option_function<std::string>(
@@ -57,6 +91,7 @@ void add_input(CLI::App& app, Options& o) {
       "what happens where the object touches the border of the volume (default: closed; open "
       "for a shape that its box cuts)");
   name_group(app, "Input");
+  add_raw(app, o);
 }
 
 void add_run(CLI::App& app, Options& o, bool writes) {
@@ -212,6 +247,13 @@ void check(const Options& o) {
   }
   if (o.labelled() && o.centre == BallCentre::voxel_pair) {
     throw UsageError("--centre pair is not there for labels: their ball is centred on the surfel");
+  }
+  if (shape && o.raw) throw UsageError("--size and --type describe a raw file, not a shape");
+  if (o.raw && (o.raw->size[0] == 0 || !o.raw_type)) {
+    throw UsageError("a raw file needs --size X,Y,Z and --type u8 or another");
+  }
+  if (!shape && !o.raw && std::filesystem::path(o.input).extension() == ".raw") {
+    throw UsageError("'" + o.input + "': a raw file needs --size X,Y,Z and --type u8 or another");
   }
   if (!shape && o.estimator == Estimator::analytic) {
     throw UsageError("--estimator analytic needs a shape: voxels have no exact normals");

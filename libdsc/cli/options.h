@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libdsc/base/types.h"
+#include "libdsc/io/volume_source.h"
 #include "libdsc/normals/integral_invariant.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/label_volume.h"
@@ -28,6 +29,8 @@ struct Options {
   // what is read
   std::string input;                               ///< a volume file or shape:…
   std::optional<Vec3> gridstep;                    ///< world units per axis
+  std::optional<RawLayout> raw;                    ///< of a raw file
+  bool raw_type = false;                           ///< whether its type was given
   std::optional<std::array<double, 2>> threshold;  ///< inside is LO <= value <= HI
   std::vector<std::int64_t> labels;                ///< inside is any of these
   bool all_labels = false;                         ///< every value is a label, 0 the outside

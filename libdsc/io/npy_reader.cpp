@@ -165,15 +165,15 @@ class NpySource final : public VolumeSource {
     const int bytes = descr.size() == 3 ? descr[2] - '0' : 0;
     const bool integer =
         (kind == 'i' || kind == 'u') && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
+    const bool floating = kind == 'f' && (bytes == 4 || bytes == 8);
     const bool known_order =
         order == '<' || order == '>' || order == '=' || (order == '|' && bytes == 1);
-    if (!known_order || !(integer || (kind == 'b' && bytes == 1))) {
+    if (!known_order || !(integer || floating || (kind == 'b' && bytes == 1))) {
       file_.fail(offset, "values of type '" + descr +
-                             "' are not supported; save integers or bool, as with "
-                             "(array > level).astype(numpy.uint8)");
+                             "' are not supported; save integers, bool, float32 or float64");
     }
     const bool little = std::endian::native == std::endian::little;
-    type_ = {bytes, kind == 'i', bytes > 1 && order == (little ? '>' : '<')};
+    type_ = {bytes, kind == 'i', floating, bytes > 1 && order == (little ? '>' : '<')};
   }
 
   void read_grid(const NpyHeader& header, Index offset) {

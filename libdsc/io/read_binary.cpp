@@ -32,9 +32,11 @@ void pack_along_x(BinaryVolume& volume, const Slab& slab, std::span<const T> val
           const T* block = row + begin;
           const Index count = end - begin;
           if (zero_is_outside) {
-            T any = 0;
-            for (Index k = 0; k < count; ++k) any = static_cast<T>(any | block[k]);
-            if (any == 0) continue;
+            if constexpr (std::is_integral_v<T>) {  // others are seldom all 0
+              T any = 0;
+              for (Index k = 0; k < count; ++k) any = static_cast<T>(any | block[k]);
+              if (any == 0) continue;
+            }
           }
           Word word = 0;
           for (Index k = 0; k < count; ++k) word |= static_cast<Word>(inside(block[k])) << k;
@@ -84,6 +86,37 @@ std::pair<T, T> integers_in(double low, double high) {
   if (a >= beyond || b < least || a > b) return {T{1}, T{0}};
   return {a <= least ? Limits::min() : static_cast<T>(a),
           b >= beyond ? Limits::max() : static_cast<T>(b)};
+}
+
+template <class T>
+bool equals(T value, std::int64_t label) {
+  // A label that a double cannot hold, no float holds.
+  const auto rounded = static_cast<double>(label);
+  return std::abs(rounded) < 0x1p63 && static_cast<std::int64_t>(rounded) == label &&
+         static_cast<double>(value) == rounded;
+}
+
+/// select() for floats. NaN is in no interval, equals no label, and is no object.
+template <class T>
+void select_floats(BinaryVolume& volume, bool along_x, const Slab& slab, std::span<const T> values,
+                   const VoxelSelection& selection, const Context& context) {
+  if (selection.threshold) {
+    const auto [low, high] = *selection.threshold;
+    pack(
+        volume, along_x, slab, values,
+        [low = low, high = high](T v) { return v >= low && v <= high; }, context);
+  } else if (selection.labels.empty()) {
+    pack(
+        volume, along_x, slab, values, [](T v) { return v < 0 || v > 0; }, context);
+  } else {
+    pack(
+        volume, along_x, slab, values,
+        [&](T v) {
+          return std::any_of(selection.labels.begin(), selection.labels.end(),
+                             [&](std::int64_t label) { return equals(v, label); });
+        },
+        context);
+  }
 }
 
 template <class T>
@@ -139,7 +172,11 @@ BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& selection,
         std::visit(
             [&](auto values) {
               using T = std::remove_cv_t<typename decltype(values)::element_type>;
-              select<T>(volume, source.x_fastest(), slab, values, selection, context);
+              if constexpr (std::is_floating_point_v<T>) {
+                select_floats<T>(volume, source.x_fastest(), slab, values, selection, context);
+              } else {
+                select<T>(volume, source.x_fastest(), slab, values, selection, context);
+              }
             },
             slab.values);
       },

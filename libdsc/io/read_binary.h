@@ -14,7 +14,7 @@
 namespace dsc {
 
 /// The values that are inside: by default every value but 0, else those in a closed interval or
-/// those of a list, not both.
+/// those of a list, not both. NaN is never inside.
 struct VoxelSelection {
   struct Interval {
     double low;   ///< may be -infinity
@@ -28,7 +28,7 @@ struct VoxelSelection {
 };
 
 /// Reads `source` in slabs; memory is one bit a voxel and one slab. Interval and labels are
-/// compared exactly, as integers. \throws as VolumeSource::read and BinaryVolume.
+/// compared exactly. \throws as VolumeSource::read and BinaryVolume.
 BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& selection = {},
                          const Context& context = {});
 

@@ -12,13 +12,7 @@ namespace dsc::detail {
 
 std::unique_ptr<VolumeSource> open_vol(const std::string& path, bool longvol);
 std::unique_ptr<VolumeSource> open_npy(const std::string& path);
-
-/// How values lie in a file.
-struct ValueType {
-  int bytes = 1;
-  bool is_signed = false;
-  bool swap = false;  ///< the file's byte order is not this machine's
-};
+std::unique_ptr<VolumeSource> open_vox(const std::string& path);
 
 /// Delivers the next bytes of the values.
 using ByteReader = std::function<void(void* to, Index bytes)>;

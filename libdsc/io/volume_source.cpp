@@ -44,6 +44,11 @@ void stream_typed(Index slices, Index per_slice, bool swap, const ByteReader& ne
 
 void stream_slabs(Index slices, Index per_slice, const ValueType& type, const ByteReader& next,
                   const std::function<void(const Slab&)>& take, const Context& context) {
+  if (type.is_float) {
+    return type.bytes == 4
+               ? stream_typed<float>(slices, per_slice, type.swap, next, take, context)
+               : stream_typed<double>(slices, per_slice, type.swap, next, take, context);
+  }
   const auto stream = [&](auto unsigned_zero, auto signed_zero) {
     if (type.is_signed) {
       stream_typed<decltype(signed_zero)>(slices, per_slice, type.swap, next, take, context);
@@ -73,13 +78,36 @@ std::string extension_of(const std::string& path) {
 
 }  // namespace detail
 
+std::string volume_endings() { return ".vol, .longvol, .npy, .vox"; }
+
+ValueType value_type(const std::string& name) {
+  const std::size_t digits = name.find_first_of("123456789");
+  const std::string bits = digits == 1 ? name.substr(1) : "";
+  ValueType type;
+  type.bytes = bits == "8" ? 1 : bits == "16" ? 2 : bits == "32" ? 4 : bits == "64" ? 8 : 0;
+  type.is_signed = name[0] == 'i';
+  type.is_float = name[0] == 'f';
+  const bool known = type.is_float ? type.bytes >= 4 : type.is_signed || name[0] == 'u';
+  if (type.bytes == 0 || !known) {
+    throw UsageError("'" + name +
+                     "' is no type of values; there are u8, i8, u16, i16, u32, i32, u64, i64, f32 "
+                     "and f64");
+  }
+  return type;
+}
+
 std::unique_ptr<VolumeSource> open_volume(const std::string& path) {
   const std::string extension = detail::extension_of(path);
   if (extension == ".vol") return detail::open_vol(path, false);
   if (extension == ".longvol") return detail::open_vol(path, true);
   if (extension == ".npy") return detail::open_npy(path);
-  throw UsageError("'" + path + "': the extension '" + extension +
-                   "' is no volume format; .vol, .longvol and .npy are read");
+  if (extension == ".vox") return detail::open_vox(path);
+  if (extension == ".raw") {
+    throw UsageError("'" + path +
+                     "': a raw file does not say how its values lie; give its size and type");
+  }
+  throw UsageError("'" + path + "': the extension '" + extension + "' is no volume format; " +
+                   volume_endings() + " are read, and raw files with size and type");
 }
 
 }  // namespace dsc

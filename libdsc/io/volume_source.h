@@ -1,5 +1,5 @@
 /// \file
-/// A volume of integer values in a file, read in slabs, so that a binary volume is made without a
+/// A volume of values in a file, read in slabs, so that a binary volume is made without a
 /// copy of the labels.
 ///
 /// Formats, by extension:
@@ -9,7 +9,11 @@
 ///   bytes in a voxel; the spacing is 1 unless the keys `Spacing-X`, `-Y`, `-Z` (ours) give
 ///   another. `Center-…` and other keys are not used.
 /// - `.npy`, versions 1 to 3: a 3-D array indexed [z][y][x], in C or Fortran order, of bool or
-///   signed or unsigned integers of 1 to 8 bytes, either byte order. Spacing 1.
+///   signed or unsigned integers of 1 to 8 bytes or floats of 4 or 8, either byte order. Spacing
+///   1.
+/// - `.vox` (MagicaVoxel): one model; the values are the colours' numbers, 1 to 255, and 0 where
+///   there is no voxel; z is up. Spacing 1.
+/// - anything, by open_raw_volume(): the values alone, x fastest, then y, then z. Spacing 1.
 ///
 /// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k), which is also its place in
 /// the world.
@@ -33,7 +37,16 @@ namespace dsc {
 using VoxelValues = std::variant<std::span<const std::uint8_t>, std::span<const std::int8_t>,
                                  std::span<const std::uint16_t>, std::span<const std::int16_t>,
                                  std::span<const std::uint32_t>, std::span<const std::int32_t>,
-                                 std::span<const std::uint64_t>, std::span<const std::int64_t>>;
+                                 std::span<const std::uint64_t>, std::span<const std::int64_t>,
+                                 std::span<const float>, std::span<const double>>;
+
+/// How a value lies in a file.
+struct ValueType {
+  int bytes = 1;
+  bool is_signed = false;  ///< of integers
+  bool is_float = false;   ///< of 4 or 8 bytes
+  bool swap = false;       ///< the file's byte order is not this machine's
+};
 
 /// Consecutive slices [first, last) of a volume.
 struct Slab {
@@ -63,9 +76,28 @@ class VolumeSource {
   virtual void read(const std::function<void(const Slab&)>& take, const Context& context = {}) = 0;
 };
 
+/// The extensions that open_volume() knows, for messages and help.
+std::string volume_endings();
+
 /// Reads and checks the header. Nothing of the volume's size is allocated.
 /// \throws InputError naming the file, the byte and the remedy; UsageError where the extension is
 /// not one of the above.
 std::unique_ptr<VolumeSource> open_volume(const std::string& path);
+
+/// What a raw file does not say about itself.
+struct RawLayout {
+  Index3 size{0, 0, 0};
+  ValueType type;  ///< swap is not used
+  bool big_endian = false;
+  Index offset = 0;  ///< bytes before the first value
+};
+
+/// The type of one of the names u8, i8, u16, i16, u32, i32, u64, i64, f32, f64.
+/// \throws UsageError naming them.
+ValueType value_type(const std::string& name);
+
+/// A raw file. \throws InputError where its length is not exactly that of the layout, with both
+/// numbers; UsageError where a size is not positive.
+std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout);
 
 }  // namespace dsc

@@ -8,6 +8,8 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -150,7 +152,11 @@ void check_grid(const Grid& grid, const std::string& path) {
 template <class T>
 std::string descr_of() {
   const char order = sizeof(T) == 1 ? '|' : std::endian::native == std::endian::little ? '<' : '>';
-  return {order, std::is_signed_v<T> ? 'i' : 'u', static_cast<char>('0' + sizeof(T))};
+  return {order,
+          std::is_floating_point_v<T> ? 'f'
+          : std::is_signed_v<T>       ? 'i'
+                                      : 'u',
+          static_cast<char>('0' + sizeof(T))};
 }
 
 static_assert(std::endian::native == std::endian::little,
@@ -159,7 +165,15 @@ static_assert(std::endian::native == std::endian::little,
 /// `value` as a T. \throws InputError where it does not fit.
 template <class T, class From>
 T fitting(From value, Index at, const Grid& grid, const std::string& path) {
-  if (!std::in_range<T>(value)) {
+  bool fits = std::is_same_v<T, From>;
+  if constexpr (std::is_floating_point_v<From> && !std::is_floating_point_v<T>) {
+    constexpr double kBeyond = 0x1p64;  // of the largest format's values
+    fits = value >= 0 && value < std::min(kBeyond, 1. + std::numeric_limits<T>::max()) &&
+           value == std::floor(value);
+  } else if constexpr (!std::is_same_v<T, From>) {
+    fits = std::in_range<T>(value);
+  }
+  if (!fits) {
     const Index x = at % grid.size[0];
     const Index y = at / grid.size[0] % grid.size[1];
     const Index z = at / grid.size[0] / grid.size[1];

@@ -23,9 +23,9 @@ struct VolumeWriteOptions {
 void write_volume(const std::string& path, const BinaryVolume& volume,
                   const VolumeWriteOptions& options = {}, const Context& context = {});
 
-/// values[x + X (y + Y z)]. .npy keeps the type; .vol wants values in [0, 255], .longvol values
-/// that are not negative. \throws InputError on others, naming the first voxel, or where the number
-/// of values is not the grid's.
+/// values[x + X (y + Y z)]. .npy keeps the type; .vol wants whole values in [0, 255], .longvol
+/// whole values that are not negative. \throws InputError on others, naming the first voxel, or
+/// where the number of values is not the grid's.
 void write_volume(const std::string& path, const Grid& grid, const VoxelValues& values,
                   const VolumeWriteOptions& options = {}, const Context& context = {});
 

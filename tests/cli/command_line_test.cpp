@@ -71,6 +71,16 @@ TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
   }
   expect_refused(run_dsc({"normals", "a.vol", "--labels", "all", "--centre", "pair"}), 2,
                  {"--centre pair"});
+  expect_refused(run_dsc({"info", "a.raw"}), 2, {"a.raw", "--size", "--type"});
+  expect_refused(run_dsc({"info", "a.raw", "--size", "2,2,2"}), 2, {"--type"});
+  expect_refused(run_dsc({"info", "a.raw", "--type", "u8"}), 2, {"--size"});
+  expect_refused(run_dsc({"info", "a.raw", "--type", "u9", "--size", "2,2,2"}), 2, {"u9", "f64"});
+  expect_refused(run_dsc({"info", "a.raw", "--type", "u8", "--size", "2,2"}), 2, {"--size"});
+  expect_refused(run_dsc({"info", "a.raw", "--type", "u8", "--size", "2,2,0"}), 2, {"--size"});
+  expect_refused(run_dsc({"info", "a.raw", "--endian", "middle"}), 2, {"--endian", "little"});
+  expect_refused(run_dsc({"info", "a.raw", "--offset", "-1"}), 2, {"--offset"});
+  expect_refused(run_dsc({"info", sphere, "--gridstep", "1", "--size", "2,2,2", "--type", "u8"}), 2,
+                 {"--size", "shape"});
   expect_refused(run_dsc({"surface", sphere, "--gridstep", "0.1"}), 2, {"--output"});
   expect_refused(run_dsc({"normals", sphere, "--gridstep", "0.1", "--estimator", "best"}), 2,
                  {"--estimator", "ii", "trivial", "analytic"});

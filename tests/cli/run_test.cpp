@@ -249,6 +249,25 @@ TEST(Anisotropy, TheSphereKeepsItsDistancesOnStretchedVoxels) {
   EXPECT_LE(report["error"]["mean"], 0.04);
 }
 
+TEST(Info, ARawFileIsReadAsItsOptionsSay) {
+  const Folder folder;
+  std::string bytes(3, '#');  // a header
+  for (const int v : {0, 300, 400, 0, 301, 0}) {
+    bytes += static_cast<char>(v >> 8);
+    bytes += static_cast<char>(v & 255);
+  }
+  write_file(folder / "v.dat", bytes);
+  const Words raw = {"info", folder / "v.dat", "--size", "3,2,1",       "--type", "i16", "--endian",
+                     "big",  "--offset",       "3",      "--threshold", "300,301"};
+  const auto report = report_of(raw);
+  EXPECT_EQ(report["input"]["size"], (std::vector<int>{3, 2, 1}));
+  EXPECT_EQ(report["input"]["voxels_inside"], 2);
+  write_file(folder / "v.dat", bytes + "x");
+  const Outcome outcome = run_dsc(raw);
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("12 bytes, the file holds 13"), std::string::npos) << outcome.err;
+}
+
 /// spot-64.vol through every command.
 class RealVoxels : public testing::Test {
  protected:

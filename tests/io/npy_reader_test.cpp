@@ -103,7 +103,8 @@ TEST(NpyReader, DamagedFilesAreRefusedWithThePlace) {
   expect(npy_text(2, good).substr(0, 10) + "\xff\xff" + good, "does not fit");
   expect(npy_text(1, good) + "12345", "truncated");
   expect(npy_text(1, good) + six + "7", "too long");
-  expect(npy_text(1, dictionary("<f4", false, "(1, 2, 3)")) + six, "numpy.uint8");
+  expect(npy_text(1, dictionary("<f2", false, "(1, 2, 3)")) + six, "float32");
+  expect(npy_text(1, dictionary("<f4", false, "(1, 2, 3)")) + six, "truncated");
   expect(npy_text(1, dictionary("<i3", false, "(1, 2, 3)")) + six, "not supported");
   expect(npy_text(1, dictionary("|i8", false, "(1, 2, 3)")) + six, "not supported");
   expect(npy_text(1, dictionary("|u1", false, "(2, 3)")) + six, "2 dimensions");
