@@ -18,7 +18,7 @@ usage() {
 say() { printf '== %s\n' "$*"; }
 
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
-library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev
+library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
 test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev)
 
@@ -38,7 +38,7 @@ missing_packages() {
 install_missing() {
   if ! command -v apt-get >/dev/null; then
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
-    printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'oneTBB' 'CLI11' \
+    printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
     [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
     say "Going on with what is there."

@@ -16,4 +16,14 @@ using FillPermutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic,
 /// time. \throws LimitError where METIS runs out of memory.
 FillPermutation fill_order(const SparseMatrix& A, FillOrder order);
 
+/// The same as a type, which Eigen's factorizations take.
+template <FillOrder kOrder>
+struct EigenFillOrder {
+  using PermutationType = FillPermutation;
+
+  void operator()(const SparseMatrix& A, PermutationType& order) const {
+    order = fill_order(A, kOrder);
+  }
+};
+
 }  // namespace dsc

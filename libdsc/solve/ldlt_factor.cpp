@@ -12,16 +12,6 @@
 namespace dsc {
 namespace {
 
-/// What Eigen's factorization calls.
-template <FillOrder kOrder>
-struct Order {
-  using PermutationType = FillPermutation;
-
-  void operator()(const SparseMatrix& A, PermutationType& order) const {
-    order = fill_order(A, kOrder);
-  }
-};
-
 /// The factor in the form that the solves read.
 struct View {
   Index n = 0;
@@ -78,7 +68,7 @@ struct Factor final : Base {
   }
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const override { return ldlt.solve(b); }
 
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Order<kOrder>> ldlt;
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, EigenFillOrder<kOrder>> ldlt;
 };
 
 }  // namespace
