@@ -67,6 +67,15 @@ std::string help_footer(Command command) {
              "  dsc geodesic object.vol --source 10,20,30 -o distance.vtp\n"
              "  dsc geodesic object.vol --source-vertex 0 --source-vertex 999 -o distance.csv\n"
              "  dsc geodesic shape:sphere --gridstep 0.1 --source 0.3,0.5,0.81 --calculus naive";
+    case Command::spectrum:
+      return "Eigenvalues of -M0^-1 L, ascending, in the report; no copy of a multiple one is "
+             "lost.\n"
+             "Fields: eigenvector_0, eigenvector_1, ... per vertex, orthonormal with respect to "
+             "M0.\n"
+             "For spheres the error against l (l + 1) / r^2 is reported.\n"
+             "Examples:\n"
+             "  dsc spectrum object.vol -k 20 -o modes.vtp --report spectrum.json\n"
+             "  dsc spectrum shape:sphere --gridstep 0.1 -k 16";
   }
   return "";
 }

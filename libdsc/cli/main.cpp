@@ -31,6 +31,8 @@ void run_command(Run& run) {
       return run_diffuse(run);
     case Command::geodesic:
       return run_geodesic(run);
+    case Command::spectrum:
+      return run_spectrum(run);
   }
 }
 

@@ -203,6 +203,15 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(geodesic, "Distance");
   add_calculus(geodesic, o);
   add_run(geodesic, o, true);
+
+  CLI::App& spectrum = add_command(app, o, Command::spectrum,
+                                   "find the lowest frequencies of the surface and their shapes");
+  spectrum.add_option("-k,--count", o.count, "eigenvalues wanted, the lowest ones (default: 10)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
+  name_group(spectrum, "Spectrum");
+  add_calculus(spectrum, o);
+  add_run(spectrum, o, true);
 }
 
 /// CLI11 would only say that a subcommand is missing.
@@ -319,6 +328,8 @@ const char* name_of(Command command) {
       return "diffuse";
     case Command::geodesic:
       return "geodesic";
+    case Command::spectrum:
+      return "spectrum";
   }
   return "";
 }

@@ -16,7 +16,7 @@
 
 namespace dsc::cli {
 
-enum class Command { info, surface, normals, gradient, diffuse, geodesic };
+enum class Command { info, surface, normals, gradient, diffuse, geodesic, spectrum };
 enum class Estimator { integral_invariant, trivial, analytic };
 enum class BoundaryChoice { neumann, mixed };
 enum class DistanceMethod { automatic, direct, bands };
@@ -55,6 +55,7 @@ struct Options {
   std::optional<double> time;
   BoundaryChoice boundary = BoundaryChoice::mixed;
   DistanceMethod method = DistanceMethod::automatic;
+  Index count = 10;  ///< spectrum: eigenvalues
 
   // how it is run and what is written
   std::vector<std::string> outputs;

@@ -55,6 +55,12 @@ Json json_of(const CalculusReport& calculus) {
           {"clamped_faces", calculus.clamped_faces}};
 }
 
+Json json_of(const SpectrumReport& spectrum) {
+  return {{"eigenvalues", spectrum.eigenvalues},
+          {"residual", number(spectrum.residual)},
+          {"rounds", spectrum.rounds}};
+}
+
 Json json_of(const Timings& t) {
   return {{"read", number(t.read)},           {"extract", number(t.extract)},
           {"normals", number(t.normals)},     {"assemble", number(t.assemble)},
@@ -88,6 +94,7 @@ void write_report(const std::string& path, const Options& options, const Report&
   if (report.surface) json["surface"] = json_of(*report.surface, options.adjacency);
   if (report.normals) json["normals"] = json_of(*report.normals);
   if (report.calculus) json["calculus"] = json_of(*report.calculus);
+  if (report.spectrum) json["spectrum"] = json_of(*report.spectrum);
   if (!report.source_vertices.empty()) json["source_vertices"] = report.source_vertices;
   if (report.result) json["result"] = json_of(report.result_name, *report.result);
   if (report.error) json["error"] = json_of(report.error_name, *report.error);

@@ -36,6 +36,12 @@ struct CalculusReport {
   Index clamped_faces = 0;
 };
 
+struct SpectrumReport {
+  std::vector<double> eigenvalues;  ///< ascending
+  double residual = 0;              ///< as in Spectrum
+  Index rounds = 0;
+};
+
 /// Wall-clock seconds; 0 for a stage that was not needed.
 struct Timings {
   double read = 0, extract = 0, normals = 0, assemble = 0, factorize = 0, solve = 0, write = 0;
@@ -47,6 +53,7 @@ struct Report {
   std::optional<SurfaceCounts> surface;
   std::optional<NormalsReport> normals;
   std::optional<CalculusReport> calculus;
+  std::optional<SpectrumReport> spectrum;
   std::vector<std::int64_t> source_vertices;
   std::string result_name;  ///< the quantity that `result` is about
   std::optional<Statistics> result;

@@ -22,7 +22,7 @@ struct ErrorNorms {
   double max = 0;
   double l2 = 0;
 };
-/// Of the differences between `values` and `truth`, where both are finite. 	hrows InputError
+/// Of the differences between `values` and `truth`, where both are finite. \throws InputError
 /// where a value is finite and its truth is not, or the other way round, naming the first.
 ErrorNorms error_norms(const Eigen::VectorXd& values, const Eigen::VectorXd& truth);
 /// Of errors as they are, finite.

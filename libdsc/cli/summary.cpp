@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace dsc::cli {
 namespace {
 
@@ -83,6 +86,18 @@ std::string summary(const Options& options, const Report& report) {
              fmt::format("{}, lambda {:g}, {}", report.calculus->projected ? "projected" : "naive",
                          options.lambda,
                          counted(report.calculus->clamped_faces, "clamped face", "clamped faces")));
+  }
+  if (report.spectrum) {
+    constexpr std::size_t kShown = 16;
+    const std::vector<double>& all = report.spectrum->eigenvalues;
+    std::string values;
+    for (std::size_t k = 0; k < std::min(kShown, all.size()); ++k) {
+      // Zero up to rounding, in the size of its neighbours.
+      const double value = std::abs(all[k]) < 1e-9 * std::abs(all.back()) ? 0. : all[k];
+      values += fmt::format("{}{:.5g}", k == 0 ? "" : ", ", value);
+    }
+    if (all.size() > kShown) values += ", ...";
+    text += line("spectrum", values);
   }
   if (report.result) {
     const Statistics& s = *report.result;

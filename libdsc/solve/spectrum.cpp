@@ -50,9 +50,10 @@ struct Pairs {
 };
 
 SparseMatrix shifted(const SparseMatrix& A, const Eigen::VectorXd& mass, double shift) {
-  SparseMatrix result = A;
-  result.diagonal() -= shift * mass;
-  return result;
+  SparseMatrix M(A.rows(), A.cols());  // also where A stores no diagonal
+  M.setIdentity();
+  M.diagonal() = shift * mass;
+  return A - M;
 }
 
 /// y = (S - σ)⁻¹ x without the part in the span of `found`.
@@ -109,9 +110,16 @@ class LowestPairs {
     const Index steps = std::min(n - found_.vectors.cols(), std::max<Index>(2 * wanted + 1, 24));
     const InverseOp op(*factor_, root_, found_.vectors, context_);
     Spectra::SymEigsSolver<InverseOp> lanczos(const_cast<InverseOp&>(op), wanted, steps);
-    lanczos.init();
-    const Index got = lanczos.compute(Spectra::SortRule::LargestAlge, kLanczosRestarts, 1e-11);
-    if (lanczos.info() != Spectra::CompInfo::Successful && got == 0) {
+    Index got = 0;
+    try {
+      lanczos.init();
+      got = lanczos.compute(Spectra::SortRule::LargestAlge, kLanczosRestarts, 1e-11);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& failure) {  // Spectra's own
+      throw SolverError(std::string("spectrum: Lanczos broke down: ") + failure.what());
+    }
+    if (got == 0) {
       throw SolverError("spectrum: Lanczos found no eigenvalue of " + std::to_string(n) +
                         " unknowns");
     }
@@ -224,14 +232,14 @@ Spectrum lowest_of_scaled(const SparseMatrix& A, const Eigen::VectorXd& mass,
     pairs.extend(options.count + kGuard);
     for (rounds = 1;; ++rounds) {
       const Index j = first_gap(pairs.found().values, options.count, pairs.shift());
-      const Index missing = j == 0 ? kGuard : missing_below_gap(pairs, j);
+      const Index missing = j == 0 ? 0 : missing_below_gap(pairs, j);
       if (j > 0 && missing == 0) break;
       if (rounds == kRounds) {
-        throw SolverError("spectrum: " + std::to_string(missing) + " of the lowest " +
-                          std::to_string(options.count) + " eigenvalues were not found in " +
-                          std::to_string(kRounds) + " runs");
+        throw SolverError("spectrum: the lowest " + std::to_string(options.count) +
+                          " eigenvalues were not complete after " + std::to_string(kRounds) +
+                          " runs; ask for a few more or fewer");
       }
-      if (j > 0) recovered += missing;
+      recovered = std::max(recovered, missing);
       pairs.extend(missing + kGuard);
     }
   }

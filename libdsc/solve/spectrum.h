@@ -25,7 +25,7 @@ struct Spectrum {
   Eigen::MatrixXd vectors;     ///< n x count, XᵀMX = I; the entry largest in size is positive
   double residual = 0;         ///< the largest, as of SpectrumOptions::tolerance
   Index rounds = 0;            ///< Lanczos runs that it took; 0 where the matrix was small: dense
-  Index copies_recovered = 0;  ///< eigenvalues that the first run lost
+  Index copies_recovered = 0;  ///< eigenvalues that the count found missing
 };
 
 /// `A` is n x n, symmetric positive semi-definite, both triangles stored; `mass` the n positive

@@ -6,8 +6,8 @@
 namespace dsc::test {
 namespace {
 
-const std::vector<std::string> kCommands = {"info",     "surface", "normals",
-                                            "gradient", "diffuse", "geodesic"};
+const std::vector<std::string> kCommands = {"info",    "surface",  "normals", "gradient",
+                                            "diffuse", "geodesic", "spectrum"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

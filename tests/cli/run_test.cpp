@@ -205,6 +205,16 @@ TEST(Diffuse, KeepsAUnitOfHeatAndEvensItOut) {
   EXPECT_NEAR(report["result"]["min"], 1 / (4 * std::numbers::pi), 0.01);
 }
 
+TEST(Spectrum, OfTheSphereIsThatOfTheHarmonics) {
+  const Folder folder;
+  const auto report = report_of(Words{"spectrum", "-k", "9", "-o", folder / "modes.csv"} + kSphere);
+  const auto values = report["spectrum"]["eigenvalues"];
+  ASSERT_EQ(values.size(), 9U);
+  const double exact[] = {0, 2, 2, 2, 6, 6, 6, 6, 6};
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(values[k], exact[k], 0.03 * exact[k] + 1e-9) << k;
+  EXPECT_LT(report["error"]["max"], 0.03 * 6);
+}
+
 TEST(Surface, IsWrittenWithSharedVertices) {
   const Folder folder;
   const auto report =

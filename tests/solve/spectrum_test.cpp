@@ -72,6 +72,13 @@ TEST(Spectrum, HasEveryCopyOfMultipleEigenvalues) {
   expect_lowest(s, grid_eigenvalues(n, n, 5), 1.);
 }
 
+TEST(Spectrum, FindsCopiesThatTheFirstRunLost) {
+  const Spectrum s =
+      lowest_spectrum(grid_laplacian(5, 5, 60), Eigen::VectorXd::Ones(60 * 25), {.count = 61});
+  EXPECT_GT(s.copies_recovered, 0);  // else this is not the test that it wants to be
+  expect_lowest(s, grid_eigenvalues(5, 5, 60), 1.);
+}
+
 TEST(Spectrum, AgreesWithDenseAlgebraWhereMassesDiffer) {
   const SparseMatrix A = grid_laplacian(19, 23);
   const Eigen::VectorXd mass = scrambled(19 * 23, 3).array().exp();

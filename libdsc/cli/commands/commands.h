@@ -12,5 +12,6 @@ void run_normals(Run& run);
 void run_gradient(Run& run);
 void run_diffuse(Run& run);
 void run_geodesic(Run& run);
+void run_spectrum(Run& run);
 
 }  // namespace dsc::cli
