@@ -3,18 +3,10 @@
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/result_writers.h"
 
-#include <charconv>
-
 namespace dsc::detail {
 namespace {
 
 constexpr Index kGrain = 1 << 12;
-
-void append_double(std::string& out, double value) {
-  char digits[32];  // the shortest form of a double has at most 24 characters
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  out.append(digits, end);
-}
 
 Vec3 mean_corner(const FlatMesh& mesh, Index face) {
   Vec3 sum = Vec3::Zero();
@@ -38,10 +30,10 @@ void write_csv(AtomicFile& file, const Result& result, FieldOn rows, const Conte
   const auto encode = [&](Index first, Index last, std::string& out) {
     for (Index i = first; i < last; ++i) {
       const Vec3 p = rows == FieldOn::vertex ? mesh.positions[i] : mean_corner(mesh, i);
-      append_double(out, p[0]);
+      append_number(out, p[0]);
       for (const double coordinate : {p[1], p[2]}) {
         out += ',';
-        append_double(out, coordinate);
+        append_number(out, coordinate);
       }
       for (const Field& field : result.fields) {
         if (field.on != rows) continue;
@@ -49,7 +41,7 @@ void write_csv(AtomicFile& file, const Result& result, FieldOn rows, const Conte
         for (const double value :
              field.values.subspan(static_cast<std::size_t>(i) * parts, parts)) {
           out += ',';
-          append_double(out, value);
+          append_number(out, value);
         }
       }
       out += '\n';

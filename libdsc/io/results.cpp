@@ -5,6 +5,7 @@
 #include "libdsc/io/result_writers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -16,33 +17,62 @@ static_assert(std::endian::native == std::endian::little, "the writers copy litt
 
 namespace {
 
-enum class Format { ply, vtp, csv };
+enum class Format { ply, vtp, csv, off, obj, stl, om };
+
+struct Ending {
+  const char* text;
+  Format format;
+};
+constexpr std::array<Ending, 7> kEndings{{{".ply", Format::ply},
+                                          {".vtp", Format::vtp},
+                                          {".csv", Format::csv},
+                                          {".off", Format::off},
+                                          {".obj", Format::obj},
+                                          {".stl", Format::stl},
+                                          {".om", Format::om}}};
 
 Format format_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".ply") return Format::ply;
-  if (ending == ".vtp") return Format::vtp;
-  if (ending == ".csv") return Format::csv;
+  for (const Ending& known : kEndings) {
+    if (ending == known.text) return known.format;
+  }
   throw UsageError(
       "'" + path +
       "': " + (ending.empty() ? "no ending tells" : "the ending '" + ending + "' does not tell") +
       " the format of the result; known are " + result_endings());
 }
 
-/// The first index at which `values` holds NaN, or -1.
-Index first_nan(std::span<const double> values, const Context& context) {
+/// The first index at which `is_bad` holds of a value, or -1.
+template <class IsBad>
+Index first_bad(std::span<const double> values, const IsBad& is_bad, const Context& context) {
   const auto n = static_cast<Index>(values.size());
   return parallel_reduce(
       context, n, Index{1} << 16, Index{-1},
       [&](Index first, Index last) {
         for (Index i = first; i < last; ++i) {
-          if (std::isnan(values[static_cast<std::size_t>(i)])) return i;
+          if (is_bad(values[static_cast<std::size_t>(i)])) return i;
         }
         return Index{-1};
       },
       [](Index a, Index b) { return a >= 0 ? a : b; });
+}
+
+void check_mesh(const FlatMesh& mesh, const Context& context) {
+  const Vec3View positions = mesh.positions;
+  const Index bad = first_bad(
+      {positions.data, static_cast<std::size_t>(3 * positions.size)},
+      [](double value) { return !std::isfinite(value); }, context);
+  if (bad >= 0) {
+    throw InputError("the position of vertex " + std::to_string(bad / 3) + " is not finite");
+  }
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    if (mesh.corners[c] < 0 || mesh.corners[c] >= mesh.vertices()) {
+      throw InputError("corner " + std::to_string(c) + " of the mesh is vertex " +
+                       std::to_string(mesh.corners[c]) + " of " + std::to_string(mesh.vertices()));
+    }
+  }
 }
 
 bool is_plain_name(const std::string& name) {
@@ -69,7 +99,8 @@ void check_field(const Field& field, const FlatMesh& mesh, const Context& contex
                      (field.on == FieldOn::vertex ? " vertices" : " faces") + " of " +
                      std::to_string(parts) + " each");
   }
-  const Index nan = first_nan(field.values, context);
+  const Index nan = first_bad(
+      field.values, [](double value) { return std::isnan(value); }, context);
   if (nan >= 0) {
     throw InputError("field " + field.name + " is not a number at " + kind + " " +
                      std::to_string(nan / parts) + "; it is not written");
@@ -110,7 +141,11 @@ Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on,
           {values.data, static_cast<std::size_t>(3 * values.size)}};
 }
 
-std::string result_endings() { return ".ply, .vtp, .csv"; }
+std::string result_endings() {
+  std::string all;
+  for (const Ending& known : kEndings) all += (all.empty() ? "" : ", ") + std::string(known.text);
+  return all;
+}
 
 void check_result_path(const std::string& path) {
   format_of(path);
@@ -129,16 +164,14 @@ std::vector<std::string> write_result(const std::string& path, const Result& res
                                       const Context& context) {
   const Format format = format_of(path);
   check_result_path(path);
-  const Vec3View positions = result.mesh.positions;
-  const Index nan =
-      first_nan({positions.data, static_cast<std::size_t>(3 * positions.size)}, context);
-  if (nan >= 0) {
-    throw InputError("the position of vertex " + std::to_string(nan / 3) + " is not a number");
-  }
+  check_mesh(result.mesh, context);
   for (const Field& field : result.fields) check_field(field, result.mesh, context);
   check_names_differ(result);
 
   std::vector<std::string> left_out;
+  const auto leave_out_all = [&] {
+    for (const Field& field : result.fields) left_out.push_back(field.name);
+  };
   AtomicFile file(path);
   switch (format) {
     case Format::ply:
@@ -155,6 +188,21 @@ std::vector<std::string> write_result(const std::string& path, const Result& res
       detail::write_csv(file, result, rows, context);
       break;
     }
+    case Format::off:
+      leave_out_all();
+      detail::write_off(file, result, context);
+      break;
+    case Format::obj:
+      leave_out_all();
+      detail::write_obj(file, result, context);
+      break;
+    case Format::stl:
+      leave_out_all();
+      detail::write_stl(file, result, context);
+      break;
+    case Format::om:
+      left_out = detail::write_om(file, result, context);
+      break;
   }
   file.commit();
   return left_out;

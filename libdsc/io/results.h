@@ -3,19 +3,25 @@
 ///
 /// | ending | what is written |
 /// | --- | --- |
-/// | .ply | binary little-endian; doubles; corner lists of int32; a vector is three named
-/// properties | | .vtp | ParaView's XML PolyData; doubles, appended as base64; a vector is one
-/// array of 3 components | | .csv | a header line, then x, y, z and the fields, a row per vertex or
-/// per face (below) |
+/// | .ply | binary little-endian; doubles; corner lists of int32; a vector is three properties |
+/// | .vtp | ParaView's XML PolyData; doubles as base64; a vector is one array of 3 components |
+/// | .csv | a header line, then x, y, z and the fields, a row per vertex or per face (below) |
+/// | .off, .obj | text; the mesh only |
+/// | .stl | binary; the mesh only, as triangles of floats that repeat their vertices: a quad is cut
+/// along its shorter diagonal, a larger face into a fan from its first corner |
+/// | .om | OpenMesh's own; doubles; a scalar or a vector is a persistent property of its name, the
+/// face field normal `dsc:normal`. Where faces form no oriented manifold the mesh is split, and the
+/// vertex property `dsc:vertex` says how to glue it (split_mesh.h). Read back before it is kept |
 ///
 /// Vertices are vertex ids: the junction vertices of a digital surface stay shared, however its
-/// halfedge mesh had to split them. Every double is written in full: .csv uses the shortest form
-/// that reads back to the same bits. An infinite value (a distance that no source reaches) is IEEE
-/// infinity in .ply and .vtp and `inf` in .csv; NaN is refused.
+/// halfedge mesh had to split them. Every double is written in full but in .stl: text uses the
+/// shortest form that reads back to the same bits. An infinite value (a distance that no source
+/// reaches) is IEEE infinity in .ply and .vtp and `inf` in .csv; NaN is refused.
 ///
 /// A .csv file holds one kind of row. It is that of the first field: per vertex with the vertex's
 /// position, or per face with the mean of the face's corners. Fields of the other kind are left
-/// out, and write_result() returns their names. Without any field the rows are the vertices.
+/// out, and write_result() returns their names, as it does where a form holds the mesh only.
+/// Without any field the rows are the vertices.
 ///
 /// Files are written beside their target, flushed and renamed: a failure leaves what was there.
 #pragma once
@@ -53,7 +59,7 @@ struct Result {
   std::vector<Field> fields;
 };
 
-/// The endings that write_result() knows, for messages and help: ".ply, .vtp, .csv".
+/// The endings that write_result() knows, for messages and help: ".ply, .vtp, .csv, …".
 std::string result_endings();
 
 /// Refuses a path that write_result() could not serve, before anything is computed.
@@ -62,10 +68,11 @@ std::string result_endings();
 void check_result_path(const std::string& path);
 
 /// Writes `result` in the form that the ending of `path` names (upper or lower case).
-/// \return the names of the fields that the form could not hold (.csv only; see above).
+/// \return the names of the fields that the form could not hold (see above).
 /// \throws UsageError as check_result_path(), or where a field has another number of values than
 /// the mesh has vertices or faces, or a name that no format takes (letters, digits and
-/// underscores); InputError where a field or a position is NaN, naming the first; OutputError where
+/// underscores); InputError where a field is NaN, a position not finite or a corner
+/// no vertex, naming the first; OutputError where
 /// the file cannot be written; Cancelled. In every case the file at `path` is as it was before.
 std::vector<std::string> write_result(const std::string& path, const Result& result,
                                       const Context& context = {});

@@ -102,8 +102,8 @@ TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
 }
 
 TEST(CommandLine, AnUnknownEndingIsRefusedBeforeTheInputIsRead) {
-  expect_refused(run_dsc({"surface", "missing.vol", "-o", "a.obj"}), 2,
-                 {"a.obj", ".ply", ".vtp", ".csv"});
+  expect_refused(run_dsc({"surface", "missing.vol", "-o", "a.xyz"}), 2,
+                 {"a.xyz", ".ply", ".vtp", ".csv"});
 }
 
 TEST(CommandLine, AnInputThatCannotBeReadIsExitCodeThree) {

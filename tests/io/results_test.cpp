@@ -225,9 +225,9 @@ TEST_F(ResultFiles, EndingsInUpperCaseAreKnown) {
   EXPECT_EQ(files(), 0U)
 
 TEST_F(ResultFiles, AnUnknownEndingIsRefusedNamingTheKnownOnes) {
-  EXPECT_REFUSED(check_result_path(path("a.obj")), UsageError, ".obj", ".ply", ".vtp", ".csv");
+  EXPECT_REFUSED(check_result_path(path("a.xyz")), UsageError, ".xyz", ".ply", ".vtp", ".csv");
   EXPECT_REFUSED(check_result_path(path("noending")), UsageError, "noending", ".ply");
-  EXPECT_REFUSED(write_result(path("a.stl"), {}), UsageError, ".stl", ".vtp");
+  EXPECT_REFUSED(write_result(path("a.dae"), {}), UsageError, ".dae", ".vtp");
 }
 
 TEST_F(ResultFiles, AMissingFolderIsRefusedBeforeAnythingIsComputed) {

@@ -1,0 +1,33 @@
+/// \file
+/// The reader of each mesh format, and what they share. Private to io/; call read_mesh().
+#pragma once
+
+#include "libdsc/io/input_file.h"
+#include "libdsc/io/polygon_mesh.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dsc::detail {
+
+PolygonMesh read_off(InputFile& file, const Context& context);
+PolygonMesh read_obj(InputFile& file, const Context& context);
+PolygonMesh read_ply(InputFile& file, const Context& context);
+PolygonMesh read_stl(InputFile& file, const Context& context);
+PolygonMesh read_om(InputFile& file, const Context& context);
+
+/// The name and the three parts of a vector whose parts end in x, y, z, or an empty name. Parts
+/// {nx, ny, nz} are of `normal`, {gx, gy, gz} of `gradient`, {d_x, d_y, d_z} of `d`.
+std::string vector_name(std::string_view a, std::string_view b, std::string_view c);
+
+/// The opposite of vector_name().
+std::vector<std::string> vector_parts(const std::string& name);
+
+/// Packed coordinates as columns.
+Eigen::Matrix3Xd columns_of(const std::vector<double>& xyz);
+
+/// "1 face", "2 faces".
+std::string counted(Index n, const std::string& singular, const std::string& plural);
+
+}  // namespace dsc::detail
