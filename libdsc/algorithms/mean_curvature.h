@@ -3,9 +3,15 @@
 /// normals averaged to vertices. Positive where the surface is convex.
 ///
 /// X must lie near the smooth surface: with the pointels of a digital surface H is meaningless, its
-/// error grows like 1/h. Project them onto the shape where it is known (closest_point.h),
-/// regularise them where it is not (regularise.h). Diffused for a short time T, by one implicit
-/// step (M0 − T L) H̃ = M0 H, the error falls further; √T is the radius that is averaged over.
+/// error grows like 1/h. Two ways:
+/// - where the shape is known, the closest points of the pointels (closest_point.h), under the
+///   operators of the digital surface with its estimated normals;
+/// - elsewhere, regularised positions (regularise.h), under the operators of the mesh that has
+/// them,
+///   without surfels. They have moved along the surface too, so that the digital surface's own
+///   operators are wrong for them.
+/// Diffused for a short time T, by one implicit step (M0 − T L) H̃ = M0 H, the error falls further;
+/// √T is the radius that is averaged over.
 ///
 /// The stabilisation matters here. Without any (Stabilization::mercat) H converges pointwise on
 /// projected positions: root mean square errors of 0.030, 0.020, 0.011 on the unit sphere at h =
