@@ -1,0 +1,72 @@
+#include "libdsc/cli/option_checks.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/io/results.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace dsc::cli {
+namespace {
+
+/// A mistyped folder should not come out after the work is done. \throws OutputError.
+void check_folder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw OutputError("'" + path + "': the folder '" + folder.string() +
+                      "' does not exist; create it first");
+  }
+}
+
+}  // namespace
+
+void check_options(const Options& o) {
+  const bool shape = o.input.rfind("shape:", 0) == 0;
+  if (shape && !o.gridstep) {
+    throw UsageError("'" + o.input + "' needs --gridstep H, the edge of a voxel");
+  }
+  if (shape && (o.threshold || !o.labels.empty() || o.labelled())) {
+    throw UsageError(
+        "--threshold, --label, --labels and --between choose voxels of a volume file; a shape has "
+        "none");
+  }
+  if (o.labelled() && (o.threshold || !o.labels.empty())) {
+    throw UsageError(
+        "--threshold and --label make one object of the voxels, --labels and --between keep their "
+        "labels apart; give one of them");
+  }
+  if (o.all_labels && !o.between.empty()) {
+    throw UsageError("--labels all has every interface, --between one of them; give one of them");
+  }
+  if (o.labelled() && o.centre == BallCentre::voxel_pair) {
+    throw UsageError("--centre pair is not there for labels: their ball is centred on the surfel");
+  }
+  if (shape && o.raw) throw UsageError("--size and --type describe a raw file, not a shape");
+  if (o.raw && (o.raw->size[0] == 0 || !o.raw_type)) {
+    throw UsageError("a raw file needs --size X,Y,Z and --type u8 or another");
+  }
+  if (!shape && !o.raw && std::filesystem::path(o.input).extension() == ".raw") {
+    throw UsageError("'" + o.input + "': a raw file needs --size X,Y,Z and --type u8 or another");
+  }
+  if (!shape && o.estimator == Estimator::analytic) {
+    throw UsageError("--estimator analytic needs a shape: voxels have no exact normals");
+  }
+  const bool wants_sources = o.command == Command::diffuse || o.command == Command::geodesic;
+  if (wants_sources && o.sources.empty() && o.source_vertices.empty()) {
+    throw UsageError(std::string(name_of(o.command)) +
+                     " needs a source: --source x,y,z or --source-vertex ID");
+  }
+  if (o.threshold && !o.labels.empty()) {
+    throw UsageError("--threshold and --label both say which voxels are inside; give one of them");
+  }
+  std::vector<std::string> files = o.outputs;
+  if (!o.report.empty()) files.push_back(o.report);
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end()) throw UsageError("'" + *twice + "' is to be written twice");
+  for (const std::string& path : o.outputs) check_result_path(path);
+  check_folder(o.report);
+}
+
+}  // namespace dsc::cli

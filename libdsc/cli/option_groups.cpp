@@ -1,0 +1,150 @@
+#include "libdsc/cli/option_groups.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/cli/numbers.h"
+#include "libdsc/cli/option_kinds.h"
+#include "libdsc/io/results.h"
+
+#include <string>
+
+namespace dsc::cli {
+namespace {
+
+/// What only raw files need. A layout without a size was asked for without --size.
+void add_raw(CLI::App& app, Options& o) {
+  const auto layout = [&o]() -> RawLayout& { return o.raw ? *o.raw : o.raw.emplace(); };
+  app.add_option_function<std::string>(
+         "--size",
+         [layout](const std::string& text) { layout().size = parse_size(text, "--size"); },
+         "voxels along x, y and z: INPUT is raw, x fastest, then y")
+      ->type_name("X,Y,Z");
+  app.add_option_function<std::string>(
+         "--type",
+         [&o, layout](const std::string& text) {
+           layout().type = value_type(text);
+           o.raw_type = true;
+         },
+         "the type of its values, little-endian")
+      ->type_name("u8|i8|u16|i16|u32|i32|u64|i64|f32|f64");
+  app.add_option_function<std::string>(
+         "--endian",
+         [layout](const std::string& text) {
+           if (text != "little" && text != "big") {
+             throw UsageError("--endian " + text + ": expected little|big");
+           }
+           layout().big_endian = text == "big";
+         },
+         "its byte order (default: little)")
+      ->type_name("little|big");
+  app.add_option_function<std::int64_t>(
+         "--offset", [layout](std::int64_t bytes) { layout().offset = bytes; },
+         "bytes before its first value (default: 0)")
+      ->type_name("BYTES")
+      ->check(CLI::NonNegativeNumber.description(""));
+  name_group(app, "Raw files");
+}
+
+}  // namespace
+
+void add_input(CLI::App& app, Options& o) {
+  app.add_option("INPUT", o.input,
+                 "a volume file (" + volume_endings() + ", or raw) or shape:NAME[,key=value...]")
+      ->required()
+      ->type_name("");
+  app.add_option_function<std::string>(
+         "--gridstep",
+         [&o](const std::string& text) { o.gridstep = parse_spacing(text, "--gridstep"); },
+         "edge of a voxel in world units, one number or hx,hy,hz; required for a shape, 1 for a "
+         "file unless it says otherwise")
+      ->type_name("H");
+  app.add_option_function<std::string>(
+         "--threshold",
+         [&o](const std::string& text) {
+           const std::vector<double> n = parse_numbers(text, "--threshold");
+           if (n.size() != 2 || n[0] > n[1]) {
+             throw UsageError("--threshold " + text + ": expected LO,HI with LO <= HI");
+           }
+           o.threshold = {n[0], n[1]};
+         },
+         "voxels with LO <= value <= HI are inside (default: every nonzero voxel)")
+      ->type_name("LO,HI");
+  app.add_option("--label", o.labels, "voxels with this value are inside; again for more")
+      ->type_name("N")
+      ->allow_extra_args(false);
+  add_choice(app, "--labels", o.all_labels, {{"all", true}},
+             "every value is a label, 0 the outside: extract every interface between two labels");
+  app.add_option_function<std::vector<std::string>>(
+         "--between",
+         [&o](const std::vector<std::string>& all) {
+           for (const std::string& text : all) o.between.push_back(parse_labels(text, "--between"));
+         },
+         "of all labels' interfaces only that between A and B, 0 being the outside; again for more")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
+  add_choice(app, "--adjacency", o.adjacency,
+             {{"interior", Adjacency::interior}, {"exterior", Adjacency::exterior}},
+             "which surfels are linked where four meet at an edge (default: interior)");
+  add_choice(
+      app, "--border", o.border, {{"closed", Border::closed}, {"open", Border::open}},
+      "what happens where the object touches the border of the volume (default: closed; open "
+      "for a shape that its box cuts)");
+  name_group(app, "Input");
+  add_raw(app, o);
+}
+
+void add_run(CLI::App& app, Options& o, bool writes) {
+  if (writes) {
+    app.add_option("-o,--output", o.outputs,
+                   "write the result here; again for more (" + result_endings() + ")")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+  }
+  app.add_option("--report", o.report, "write counts, timings, memory and errors here as JSON")
+      ->type_name("FILE");
+  app.add_option("--threads", o.threads, "threads to use (default: one per core)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024).description(""));
+  app.add_flag("--quiet", o.quiet, "no progress bar and no summary");
+  name_group(app, "Run");
+}
+
+void add_normals(CLI::App& app, Options& o) {
+  add_choice(app, "--estimator", o.estimator,
+             {{"ii", Estimator::integral_invariant},
+              {"trivial", Estimator::trivial},
+              {"analytic", Estimator::analytic}},
+             "how normals are estimated (default: ii, the integral invariant)");
+  add_positive(app, "--radius", o.radius,
+               "radius of the ball of ii, in world units (default: 3 h^(1/2) for a shape, a few "
+               "voxels for data)");
+  add_choice(app, "--centre", o.centre,
+             {{"surfel", BallCentre::surfel}, {"pair", BallCentre::voxel_pair}},
+             "where the ball of ii is centred: on the surfel, or on both of its voxels in turn "
+             "(default: surfel)");
+  name_group(app, "Normals");
+}
+
+void add_calculus(CLI::App& app, Options& o) {
+  add_normals(app, o);
+  add_choice(app, "--calculus", o.projected, {{"projected", true}, {"naive", false}},
+             "operators on faces projected along the estimated normals, or on the surfels as they "
+             "are (default: projected)");
+  add_positive(app, "--lambda", o.lambda, "weight of the stabilisation (default: 0.25)");
+  name_group(app, "Calculus");
+}
+
+void add_sources(CLI::App& app, Options& o) {
+  app.add_option_function<std::vector<std::string>>(
+         "--source",
+         [&o](const std::vector<std::string>& all) {
+           for (const std::string& text : all) o.sources.push_back(parse_point(text, "--source"));
+         },
+         "a point in world units; the vertex nearest to it is a source; again for more")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false);
+  app.add_option("--source-vertex", o.source_vertices, "a vertex id as a source; again for more")
+      ->type_name("ID")
+      ->allow_extra_args(false);
+}
+
+}  // namespace dsc::cli
