@@ -31,14 +31,16 @@ std::string help_footer(Command command) {
              "  dsc info object.vol\n"
              "  dsc info scan.raw --size 512,512,300 --type i16 --threshold 300,3000\n"
              "  dsc info labels.npy --label 3 --label 4 --report counts.json\n"
-             "  dsc info shape:torus,R=2,r=0.5 --gridstep 0.05";
+             "  dsc info shape:torus,R=2,r=0.5 --gridstep 0.05\n"
+             "  dsc info mesh.obj";
     case Command::surface:
       return "Examples:\n"
              "  dsc surface object.vol -o surface.ply\n"
              "  dsc surface labels.npy --labels all -o interfaces.vtp\n"
              "  dsc surface labels.npy --between 3,7 -o contact.ply\n"
              "  dsc surface ct.npy --threshold 300,3000 --border open -o bone.vtp\n"
-             "  dsc surface shape:goursat --gridstep 0.2 --adjacency exterior -o goursat.ply";
+             "  dsc surface shape:goursat --gridstep 0.2 --adjacency exterior -o goursat.ply\n"
+             "  dsc surface mesh.off -o mesh.om -o mesh.stl";
     case Command::normals:
       return "Fields: nx, ny, nz per face, unit, outwards.\n"
              "For shapes the angle to the exact normals is reported, in radians.\n"

@@ -1,6 +1,7 @@
 #include "libdsc/cli/option_checks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/cli/mesh_input.h"
 #include "libdsc/io/results.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ void check_folder(const std::string& path) {
 }  // namespace
 
 void check_options(const Options& o) {
+  if (is_mesh_input(o)) check_mesh_options(o);
   const bool shape = o.input.rfind("shape:", 0) == 0;
   if (shape && !o.gridstep) {
     throw UsageError("'" + o.input + "' needs --gridstep H, the edge of a voxel");

@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/cli/numbers.h"
 #include "libdsc/cli/option_kinds.h"
+#include "libdsc/io/mesh_reader.h"
 #include "libdsc/io/results.h"
 
 #include <string>
@@ -48,7 +49,8 @@ void add_raw(CLI::App& app, Options& o) {
 
 void add_input(CLI::App& app, Options& o) {
   app.add_option("INPUT", o.input,
-                 "a volume file (" + volume_endings() + ", or raw) or shape:NAME[,key=value...]")
+                 "a volume file (" + volume_endings() + ", or raw), a mesh file (" +
+                     mesh_endings() + ") or shape:NAME[,key=value...]")
       ->required()
       ->type_name("");
   app.add_option_function<std::string>(
@@ -109,11 +111,14 @@ void add_run(CLI::App& app, Options& o, bool writes) {
 }
 
 void add_normals(CLI::App& app, Options& o) {
-  add_choice(app, "--estimator", o.estimator,
-             {{"ii", Estimator::integral_invariant},
-              {"trivial", Estimator::trivial},
-              {"analytic", Estimator::analytic}},
-             "how normals are estimated (default: ii, the integral invariant)");
+  add_choice(
+      app, "--estimator", o.estimator,
+      {{"ii", Estimator::integral_invariant},
+       {"trivial", Estimator::trivial},
+       {"analytic", Estimator::analytic}},
+      "how normals are estimated (default: ii, the integral invariant; trivial for a mesh: the "
+      "faces' own)")
+      ->each([&o](const std::string&) { o.estimator_given = true; });
   add_positive(app, "--radius", o.radius,
                "radius of the ball of ii, in world units (default: 3 h^(1/2) for a shape, a few "
                "voxels for data)");
@@ -128,7 +133,8 @@ void add_calculus(CLI::App& app, Options& o) {
   add_normals(app, o);
   add_choice(app, "--calculus", o.projected, {{"projected", true}, {"naive", false}},
              "operators on faces projected along the estimated normals, or on the surfels as they "
-             "are (default: projected)");
+             "are (default: projected; for a mesh naive, unless its file has normals)")
+      ->each([&o](const std::string&) { o.calculus_given = true; });
   add_positive(app, "--lambda", o.lambda, "weight of the stabilisation (default: 0.25)");
   name_group(app, "Calculus");
 }

@@ -27,7 +27,7 @@ struct Options {
   Command command = Command::info;
 
   // what is read
-  std::string input;                               ///< a volume file or shape:…
+  std::string input;                               ///< a volume file, a mesh file or shape:…
   std::optional<Vec3> gridstep;                    ///< world units per axis
   std::optional<RawLayout> raw;                    ///< of a raw file
   bool raw_type = false;                           ///< whether its type was given
@@ -43,9 +43,11 @@ struct Options {
 
   // how normals and operators are made
   Estimator estimator = Estimator::integral_invariant;
+  bool estimator_given = false;
   BallCentre centre = BallCentre::surfel;
   std::optional<double> radius;  ///< world units
   bool projected = true;         ///< false: the naive calculus
+  bool calculus_given = false;   ///< else a mesh file decides by its normals
   double lambda = 0.25;
 
   // what is computed

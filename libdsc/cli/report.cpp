@@ -28,6 +28,14 @@ Json json_of(const InputReport& input) {
   return json;
 }
 
+Json json_of(const MeshInputReport& input) {
+  return {{"name", input.name},
+          {"kind", "mesh"},
+          {"normals", input.normals},
+          {"isolated_vertices", input.isolated_vertices},
+          {"fields", input.fields}};
+}
+
 Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {
   return {{"vertices", counts.vertices},
           {"edges", counts.edges},
@@ -91,7 +99,9 @@ void write_report(const std::string& path, const Options& options, const Report&
   json["program"] = std::string("dsc ") + DSC_VERSION;
   json["command"] = name_of(options.command);
   if (report.input) json["input"] = json_of(*report.input);
+  if (report.mesh_input) json["input"] = json_of(*report.mesh_input);
   if (report.surface) json["surface"] = json_of(*report.surface, options.adjacency);
+  if (report.mesh_input) json["surface"].erase("adjacency");  // a choice about voxels
   if (report.normals) json["normals"] = json_of(*report.normals);
   if (report.calculus) json["calculus"] = json_of(*report.calculus);
   if (report.spectrum) json["spectrum"] = json_of(*report.spectrum);

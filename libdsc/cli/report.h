@@ -22,6 +22,14 @@ struct InputReport {
   std::optional<Index> labels;        ///< of a label image: how many labels occur, 0 left out
 };
 
+/// Of a mesh file, in place of InputReport.
+struct MeshInputReport {
+  std::string name;
+  bool normals = false;  ///< whether it has normals for the projected calculus
+  Index isolated_vertices = 0;
+  std::vector<std::string> fields;  ///< their names
+};
+
 struct NormalsReport {
   std::string estimator;
   double radius = 0;    ///< world units; 0 where the estimator has none
@@ -50,6 +58,7 @@ struct Timings {
 
 struct Report {
   std::optional<InputReport> input;
+  std::optional<MeshInputReport> mesh_input;
   std::optional<SurfaceCounts> surface;
   std::optional<NormalsReport> normals;
   std::optional<CalculusReport> calculus;

@@ -7,6 +7,7 @@
 #include "libdsc/cli/report.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace dsc::cli {
@@ -15,6 +16,9 @@ struct Run {
   const Options& options;
   Context context;
   Report report;
+  std::optional<bool> mesh_projected = {};  ///< set where a mesh file decides the calculus
+
+  bool projected() const { return mesh_projected.value_or(options.projected); }
 
   /// Goes to the report, and to stderr at the end of the run.
   void warn(std::string message) { report.warnings.push_back(std::move(message)); }

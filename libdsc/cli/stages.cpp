@@ -57,15 +57,24 @@ DigitalSurface extract(const Input& input, Run& run) {
 }  // namespace
 
 Scene open_scene(Run& run) {
+  if (is_mesh_input(run.options)) return {Input{}, DigitalSurface(), read_mesh_input(run)};
   Input input = read_input(run);
   DigitalSurface surface = extract(input, run);
-  return {std::move(input), std::move(surface)};
+  return {std::move(input), std::move(surface), {}};
 }
 
 void estimate_normals(Scene& scene, Run& run) {
   const Input& input = scene.input;
   DigitalSurface& surface = scene.surface;
   const Stopwatch watch(run.report.timings.normals);
+  if (scene.polygons) {
+    if (scene.polygons->normals.cols() > 0) {
+      run.warn("the normals of '" + run.options.input + "' were replaced");
+    }
+    scene.polygons->normals = own_normals(scene.polygons->view());
+    run.report.normals = NormalsReport{name_of(Estimator::trivial), 0., 0, {}};
+    return;
+  }
   NormalReport report;
   switch (run.options.estimator) {
     case Estimator::integral_invariant: {
@@ -100,12 +109,12 @@ void estimate_normals(Scene& scene, Run& run) {
 
 Scene prepare_scene(Run& run) {
   Scene scene = open_scene(run);
-  if (run.options.projected) estimate_normals(scene, run);
+  if (run.options.projected && !scene.polygons) estimate_normals(scene, run);
   return scene;
 }
 
 Eigen::VectorXd sample_at_vertices(const Expression& f, const Scene& scene, Run& run) {
-  const Vec3View positions = scene.surface.positions();
+  const Vec3View positions = scene.positions();
   const RigidMap& world = scene.input.world;
   if (world.is_identity()) return f(positions, run.context);
   Eigen::Matrix3Xd points(3, positions.size);
@@ -117,6 +126,13 @@ FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run) {
   return surface.flat(run.options.projected);
 }
 
+FlatMesh flat_mesh(const Scene& scene, const Run& run) {
+  if (!scene.polygons) return flat_mesh(scene.surface, run);
+  FlatMesh mesh = scene.polygons->view();
+  if (!run.projected()) mesh.normals = {};
+  return mesh;
+}
+
 CalculusOptions calculus_options(const Run& run) {
   CalculusOptions options;
   options.lambda = run.options.lambda;
@@ -126,19 +142,21 @@ CalculusOptions calculus_options(const Run& run) {
 Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options) {
   Index count = 0;
   if (!mesh.has_normals()) return count;
+  const Eigen::Matrix3Xd normals = mesh.is_digital() ? Eigen::Matrix3Xd() : own_normals(mesh);
   for (Index f = 0; f < mesh.faces(); ++f) {
-    const Vec3 own = mesh.surfels[static_cast<std::size_t>(f)].normal();
+    const Vec3 own = mesh.is_digital() ? mesh.surfels[static_cast<std::size_t>(f)].normal()
+                                       : Vec3(normals.col(f));
     if (embed(mesh.normals[f], own, options.min_cosine).clamped) ++count;
   }
   return count;
 }
 
 void note_calculus(Index clamped_faces, Run& run) {
-  run.report.calculus = CalculusReport{run.options.projected, run.options.lambda, clamped_faces};
+  run.report.calculus = CalculusReport{run.projected(), run.options.lambda, clamped_faces};
 }
 
 std::vector<VertexId> find_sources(const Scene& scene, Run& run) {
-  const Vec3View positions = scene.surface.positions();
+  const Vec3View positions = scene.positions();
   std::vector<VertexId> sources;
   for (const std::int64_t id : run.options.source_vertices) {
     if (id < 0 || id >= positions.size) {
@@ -172,6 +190,7 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
   const LabelColumns labels(scene.surface.labels());
   Result labelled = result;
   labels.append_to(labelled.fields);
+  if (scene.polygons) keep_fields(*scene.polygons, labelled, run);
   const WorldResult placed(labelled, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
     const std::vector<std::string> left_out = write_result(path, placed.get(), run.context);

@@ -5,6 +5,7 @@
 
 #include "libdsc/calculus/options.h"
 #include "libdsc/cli/input.h"
+#include "libdsc/cli/mesh_input.h"
 #include "libdsc/cli/run.h"
 #include "libdsc/io/results.h"
 #include "libdsc/surface/digital_surface.h"
@@ -14,20 +15,23 @@
 
 namespace dsc::cli {
 
-/// What every command works on.
+/// What every command works on: voxels and their surface, or a mesh, and then those are empty.
 struct Scene {
   Input input;
   DigitalSurface surface;
+  std::optional<PolygonMesh> polygons = {};
+
+  Vec3View positions() const { return polygons ? polygons->view().positions : surface.positions(); }
 };
 
 /// Reads the input and extracts its surface. \throws InputError where it has no face, though voxels
 /// are inside.
 Scene open_scene(Run& run);
 
-/// Estimates normals as the options say and writes them to the surface.
+/// Estimates normals as the options say and writes them to the surface; a mesh gets its own.
 void estimate_normals(Scene& scene, Run& run);
 
-/// Both, normals only for the projected calculus.
+/// Both, normals only for the projected calculus; those of a mesh are the file's.
 Scene prepare_scene(Run& run);
 
 /// f at the world positions of the vertices.
@@ -35,6 +39,7 @@ Eigen::VectorXd sample_at_vertices(const Expression& f, const Scene& scene, Run&
 
 /// The mesh that the calculus reads: naive where the options ask for it.
 FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run);
+FlatMesh flat_mesh(const Scene& scene, const Run& run);
 CalculusOptions calculus_options(const Run& run);
 
 /// The faces whose normal the calculus tilts back (embedding.h), where no operator tells.
@@ -48,7 +53,7 @@ void note_calculus(Index clamped_faces, Run& run);
 /// surface does not have.
 std::vector<VertexId> find_sources(const Scene& scene, Run& run);
 
-/// Writes the result to every output, as it lies in the world.
+/// Writes the result to every output, as it lies in the world, with the fields of a mesh file.
 void write_outputs(const Scene& scene, const Result& result, Run& run);
 
 }  // namespace dsc::cli

@@ -47,6 +47,15 @@ std::string text_of(const InputReport& input) {
   return text;
 }
 
+std::string text_of(const MeshInputReport& input) {
+  std::string text = input.name + (input.normals ? ": a mesh with normals" : ": a mesh");
+  for (const std::string& field : input.fields) text += ", " + field;
+  if (input.isolated_vertices > 0) {
+    text += "; " + counted(input.isolated_vertices, "vertex", "vertices") + " without faces";
+  }
+  return text;
+}
+
 std::string text_of(const NormalsReport& normals) {
   std::string text = normals.estimator == "ii" ? "integral invariant" : normals.estimator;
   if (normals.radius > 0) text += fmt::format(", radius {:.4g}", normals.radius);
@@ -78,6 +87,7 @@ std::string text_of(const Timings& t) {
 std::string summary(const Options& options, const Report& report) {
   std::string text;
   if (report.input) text += line("input", text_of(*report.input));
+  if (report.mesh_input) text += line("input", text_of(*report.mesh_input));
   if (report.surface) text += line("surface", text_of(*report.surface));
   if (report.normals) text += line("normals", text_of(*report.normals));
   if (report.calculus) {

@@ -6,7 +6,7 @@ namespace dsc::cli {
 
 void run_diffuse(Run& run) {
   const Scene scene = prepare_scene(run);
-  const FlatMesh mesh = flat_mesh(scene.surface, run);
+  const FlatMesh mesh = flat_mesh(scene, run);
   const std::vector<VertexId> sources = find_sources(scene, run);
 
   Timings& timings = run.report.timings;

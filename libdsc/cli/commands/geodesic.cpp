@@ -76,7 +76,7 @@ void measure_error(const ImplicitShape& shape, const FlatMesh& mesh,
 
 void run_geodesic(Run& run) {
   const Scene scene = prepare_scene(run);
-  const FlatMesh mesh = flat_mesh(scene.surface, run);
+  const FlatMesh mesh = flat_mesh(scene, run);
   const std::vector<VertexId> sources = find_sources(scene, run);
   const GeodesicResult result = solve(mesh, sources, run);
 

@@ -46,7 +46,7 @@ void measure_error(const Expression& f, const Scene& scene, const Eigen::Matrix3
 void run_gradient(Run& run) {
   const Expression f(run.options.function);  // a typing error shows at once
   const Scene scene = prepare_scene(run);
-  const FlatMesh mesh = flat_mesh(scene.surface, run);
+  const FlatMesh mesh = flat_mesh(scene, run);
   const Eigen::VectorXd phi = sample(f, scene, run);
   Eigen::Matrix3Xd gradients;
   {

@@ -37,9 +37,9 @@ void run_normals(Run& run) {
     run.report.error_name = "angle to the exact normal, radians";
     run.report.error = error_norms(error);
   }
+  const FlatMesh mesh = scene.polygons ? scene.polygons->view() : surface.flat();
   write_outputs(scene,
-                {surface.flat(),
-                 {vector_field("normal", {"nx", "ny", "nz"}, FieldOn::face, surface.normals())}},
+                {mesh, {vector_field("normal", {"nx", "ny", "nz"}, FieldOn::face, mesh.normals)}},
                 run);
 }
 

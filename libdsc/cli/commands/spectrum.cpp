@@ -24,7 +24,7 @@ Eigen::VectorXd sphere_spectrum(Index count, double r) {
 
 void run_spectrum(Run& run) {
   const Scene scene = prepare_scene(run);
-  const FlatMesh mesh = flat_mesh(scene.surface, run);
+  const FlatMesh mesh = flat_mesh(scene, run);
 
   LaplaceSystem system;
   {

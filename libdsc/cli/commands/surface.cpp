@@ -5,7 +5,8 @@ namespace dsc::cli {
 
 void run_surface(Run& run) {
   const Scene scene = open_scene(run);
-  write_outputs(scene, {scene.surface.flat(false), {}}, run);
+  const FlatMesh mesh = scene.polygons ? scene.polygons->view() : scene.surface.flat(false);
+  write_outputs(scene, {mesh, {}}, run);
 }
 
 }  // namespace dsc::cli
