@@ -40,6 +40,7 @@ std::string help_footer(Command command) {
              "  dsc surface labels.npy --between 3,7 -o contact.ply\n"
              "  dsc surface ct.npy --threshold 300,3000 --border open -o bone.vtp\n"
              "  dsc surface shape:goursat --gridstep 0.2 --adjacency exterior -o goursat.ply\n"
+             "  dsc surface object.vol --regularise -o smooth.ply\n"
              "  dsc surface mesh.off -o mesh.om -o mesh.stl";
     case Command::normals:
       return "Fields: nx, ny, nz per face, unit, outwards.\n"
@@ -78,6 +79,41 @@ std::string help_footer(Command command) {
              "Examples:\n"
              "  dsc spectrum object.vol -k 20 -o modes.vtp --report spectrum.json\n"
              "  dsc spectrum shape:sphere --gridstep 0.1 -k 16";
+    case Command::curvature:
+      return "Fields of ii: mean_curvature, gaussian_curvature, kappa_1 <= kappa_2 and their "
+             "directions\n"
+             "(k1x, k1y, k1z), (k2x, k2y, k2z) per face; of laplacian: mean_curvature per vertex, "
+             "of the\n"
+             "shape's points closest to the vertices, or of regularised positions where there is "
+             "no shape.\n"
+             "Positive where the object is convex. For shapes the errors are reported.\n"
+             "Examples:\n"
+             "  dsc curvature object.vol -o curvature.vtp\n"
+             "  dsc curvature object.vol --radius 12 --on vertex -o curvature.ply\n"
+             "  dsc curvature object.vol --estimator laplacian --diffuse 10 -o h.vtp\n"
+             "  dsc curvature shape:torus --gridstep 0.02 --radius 0.25 --report errors.json";
+    case Command::laplacian:
+      return "Fields: function, laplacian per vertex: M0^-1 L f, with --diffuse T (M0 - T L)^-1 L "
+             "f. The\n"
+             "function is taken at the points of the shape closest to the vertices, and the error "
+             "is\n"
+             "reported; where there is no shape, at regularised positions. Pointwise it does not "
+             "converge.\n"
+             "Examples:\n"
+             "  dsc laplacian object.vol --function 'x*y' --diffuse 10 -o laplacian.vtp\n"
+             "  dsc laplacian shape:sphere --gridstep 0.05 --function 'x^2' --diffuse 0.00175";
+    case Command::poisson:
+      return "Field: solution u per vertex, with Laplacian of u = the right-hand side (no minus "
+             "sign). On\n"
+             "the boundary of the surface u takes the values of --fix. Where a component has none, "
+             "u is\n"
+             "determined up to a constant: it gets the mean 0, and the mean of the right-hand side "
+             "is\n"
+             "taken away first and reported.\n"
+             "Examples:\n"
+             "  dsc poisson object.vol --rhs 'x*y' -o u.vtp\n"
+             "  dsc poisson half.vol --border open --rhs 1 --fix 0 -o membrane.vtp\n"
+             "  dsc poisson shape:sphere --gridstep 0.05 --rhs '-2*x' -o x.csv";
   }
   return "";
 }

@@ -1,5 +1,6 @@
 #include "libdsc/cli/input.h"
 
+#include "libdsc/cli/mesh_input.h"
 #include "libdsc/io/read_binary.h"
 #include "libdsc/io/read_labels.h"
 #include "libdsc/normals/radius.h"
@@ -69,8 +70,8 @@ std::function<bool(const Surfel&)> part_within(const Grid& box, const Grid& grid
 }
 
 bool uses_balls(const Options& options) {
-  const bool wants_normals =
-      options.command != Command::info && options.command != Command::surface;
+  const bool wants_normals = options.command != Command::info &&
+                             (options.command != Command::surface || options.regularise);
   return wants_normals && options.projected && options.estimator == Estimator::integral_invariant;
 }
 
@@ -116,9 +117,18 @@ Input read_file(Run& run) {
 
 }  // namespace
 
+CurvatureEstimator curvature_estimator(const Options& options) {
+  if (options.curvature) return *options.curvature;
+  return options.labelled() || is_mesh_input(options) ? CurvatureEstimator::laplacian
+                                                      : CurvatureEstimator::integral_invariant;
+}
+
 double ball_radius(const Options& options, bool is_shape, const Vec3& spacing) {
   if (options.radius) return *options.radius;
-  return is_shape ? shape_radius(spacing.maxCoeff()) : data_radius(spacing);
+  if (is_shape) return shape_radius(spacing.maxCoeff());
+  const bool curvature = options.command == Command::curvature &&
+                         curvature_estimator(options) == CurvatureEstimator::integral_invariant;
+  return data_radius(spacing, curvature ? kCurvatureRadiusVoxels : kDataRadiusVoxels);
 }
 
 Input read_input(Run& run) {

@@ -38,4 +38,7 @@ Input read_input(Run& run);
 /// data_radius().
 double ball_radius(const Options& options, bool is_shape, const Vec3& spacing);
 
+/// The one asked for; else ii, but for label images and meshes, which it cannot serve.
+CurvatureEstimator curvature_estimator(const Options& options);
+
 }  // namespace dsc::cli

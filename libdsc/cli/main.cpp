@@ -33,6 +33,12 @@ void run_command(Run& run) {
       return run_geodesic(run);
     case Command::spectrum:
       return run_spectrum(run);
+    case Command::curvature:
+      return run_curvature(run);
+    case Command::laplacian:
+      return run_laplacian(run);
+    case Command::poisson:
+      return run_poisson(run);
   }
 }
 
@@ -51,7 +57,7 @@ void run_and_report(const Options& options, ProgressBar& bar) {
   bar.clear();
   run.report.peak_memory_bytes = peak_memory_bytes();
   if (!options.report.empty()) write_report(options.report, options, run.report);
-  if (!options.quiet) print(summary(options, run.report));
+  if (!options.quiet) print(summary(run.report));
   for (const std::string& warning : run.report.warnings) {
     std::fprintf(stderr, "dsc: warning: %s\n", warning.c_str());
   }

@@ -21,6 +21,9 @@ bool takes_meshes(Command command) {
     case Command::diffuse:
     case Command::geodesic:
     case Command::spectrum:
+    case Command::curvature:
+    case Command::laplacian:
+    case Command::poisson:
       return true;
     default:
       return false;

@@ -1,6 +1,7 @@
 #include "libdsc/cli/option_checks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
 #include "libdsc/io/results.h"
 
@@ -53,6 +54,23 @@ void check_options(const Options& o) {
   }
   if (!shape && o.estimator == Estimator::analytic) {
     throw UsageError("--estimator analytic needs a shape: voxels have no exact normals");
+  }
+  if (o.command == Command::curvature) {
+    const bool balls = curvature_estimator(o) == CurvatureEstimator::integral_invariant;
+    if (balls && is_mesh_input(o)) {
+      throw UsageError("--estimator ii counts voxels, which a mesh does not have; use laplacian");
+    }
+    if (balls && o.labelled()) {
+      throw UsageError(
+          "--estimator ii has no curvature for the interfaces of labels: use laplacian, or "
+          "--label to choose one object");
+    }
+    if (balls && (o.time || o.curvature_lambda > 0)) {
+      throw UsageError("--diffuse and --lambda are for --estimator laplacian");
+    }
+    if (!balls && (o.on_vertices || o.form == CurvatureForm::plain)) {
+      throw UsageError("--on and --form are for --estimator ii");
+    }
   }
   const bool wants_sources = o.command == Command::diffuse || o.command == Command::geodesic;
   if (wants_sources && o.sources.empty() && o.source_vertices.empty()) {

@@ -21,11 +21,42 @@ CLI::App& add_command(CLI::App& app, Options& o, Command command, const char* de
   return sub;
 }
 
+void add_curvature(CLI::App& curvature, Options& o) {
+  add_choice(curvature, "--estimator", o.curvature,
+             {{"ii", CurvatureEstimator::integral_invariant},
+              {"laplacian", CurvatureEstimator::laplacian}},
+             "integral invariants: mean, Gaussian and principal curvatures per face; or the "
+             "Laplacian of the positions: mean curvature per vertex (default: ii; laplacian for "
+             "labels)");
+  add_positive(curvature, "--radius", o.radius,
+               "radius of the ball of ii, or of the ball of the normals, in world units (default: "
+               "3 h^(1/2) for a shape; 8 voxels for data, 6 for normals)");
+  add_choice(curvature, "--form", o.form,
+             {{"centred", CurvatureForm::centred}, {"plain", CurvatureForm::plain}},
+             "ii: the form in which the offset of the surfels from the surface cancels, or the "
+             "plain one, which has no bias on spheres and scatters more (default: centred)");
+  add_choice(curvature, "--on", o.on_vertices, {{"face", false}, {"vertex", true}},
+             "ii: a value a face, or their averages at the vertices (default: face)");
+  add_positive(curvature, "--diffuse", o.time,
+               "laplacian: diffuse the result for this time, world units squared (default: not at "
+               "all)")
+      ->type_name("T");
+  add_positive(curvature, "--lambda", o.curvature_lambda,
+               "laplacian: weight of the stabilisation (default: none, since it biases curvature)");
+  name_group(curvature, "Curvature");
+  add_run(curvature, o, true);
+}
+
 void add_commands(CLI::App& app, Options& o) {
   CLI::App& info = add_command(app, o, Command::info, "count what a digital surface is made of");
   add_run(info, o, false);
 
   CLI::App& surface = add_command(app, o, Command::surface, "extract the surface");
+  surface.add_flag("--regularise", o.regularise,
+                   "move the vertices so that faces stand across the estimated normals: a smooth "
+                   "mesh with the same faces");
+  name_group(surface, "Surface");
+  add_normals(surface, o);
   add_run(surface, o, true);
   surface.get_option("--output")->required();
 
@@ -76,6 +107,35 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(spectrum, "Spectrum");
   add_calculus(spectrum, o);
   add_run(spectrum, o, true);
+
+  add_curvature(add_command(app, o, Command::curvature, "estimate how the surface bends"), o);
+
+  CLI::App& laplacian =
+      add_command(app, o, Command::laplacian, "apply the Laplace-Beltrami operator to a function");
+  laplacian.add_option("--function", o.function, "an expression in x, y and z")
+      ->type_name("EXPR")
+      ->required();
+  add_positive(laplacian, "--diffuse", o.time,
+               "diffuse the result for this time, world units squared: about 0.035 h on a shape of "
+               "unit size (default: not at all)")
+      ->type_name("T");
+  name_group(laplacian, "Function");
+  add_calculus(laplacian, o);
+  add_run(laplacian, o, true);
+
+  CLI::App& poisson =
+      add_command(app, o, Command::poisson, "solve Poisson's equation, Laplacian of u = EXPR");
+  poisson.add_option("--rhs", o.rhs, "the Laplacian of u: an expression in x, y and z")
+      ->type_name("EXPR")
+      ->required();
+  poisson
+      .add_option("--fix", o.fix,
+                  "the values of u on the boundary of the surface (default: its derivative across "
+                  "the boundary is 0)")
+      ->type_name("EXPR");
+  name_group(poisson, "Equation");
+  add_calculus(poisson, o);
+  add_run(poisson, o, true);
 }
 
 /// CLI11 would only say that a subcommand is missing.
@@ -136,6 +196,12 @@ const char* name_of(Command command) {
       return "geodesic";
     case Command::spectrum:
       return "spectrum";
+    case Command::curvature:
+      return "curvature";
+    case Command::laplacian:
+      return "laplacian";
+    case Command::poisson:
+      return "poisson";
   }
   return "";
 }

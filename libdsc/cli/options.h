@@ -4,6 +4,7 @@
 
 #include "libdsc/base/types.h"
 #include "libdsc/io/volume_source.h"
+#include "libdsc/normals/curvature.h"
 #include "libdsc/normals/integral_invariant.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/label_volume.h"
@@ -16,8 +17,20 @@
 
 namespace dsc::cli {
 
-enum class Command { info, surface, normals, gradient, diffuse, geodesic, spectrum };
+enum class Command {
+  info,
+  surface,
+  normals,
+  gradient,
+  diffuse,
+  geodesic,
+  spectrum,
+  curvature,
+  laplacian,
+  poisson
+};
 enum class Estimator { integral_invariant, trivial, analytic };
+enum class CurvatureEstimator { integral_invariant, laplacian };
 enum class BoundaryChoice { neumann, mixed };
 enum class DistanceMethod { automatic, direct, bands };
 
@@ -51,13 +64,21 @@ struct Options {
   double lambda = 0.25;
 
   // what is computed
-  std::string function;                       ///< gradient: an expression in x, y, z
+  bool regularise = false;                    ///< surface: smooth positions
+  std::string function;                       ///< gradient, laplacian: an expression in x, y, z
+  std::string rhs, fix;                       ///< poisson: expressions; fix may be empty
   std::vector<Vec3> sources;                  ///< the vertex nearest to each
   std::vector<std::int64_t> source_vertices;  ///< vertex ids
   std::optional<double> time;
   BoundaryChoice boundary = BoundaryChoice::mixed;
   DistanceMethod method = DistanceMethod::automatic;
   Index count = 10;  ///< spectrum: eigenvalues
+
+  // curvature
+  std::optional<CurvatureEstimator> curvature;  ///< not given: see curvature_estimator() in input.h
+  CurvatureForm form = CurvatureForm::centred;
+  bool on_vertices = false;     ///< ii: averages to vertices
+  double curvature_lambda = 0;  ///< laplacian: 0 is no stabilisation
 
   // how it is run and what is written
   std::vector<std::string> outputs;

@@ -69,11 +69,29 @@ Json json_of(const SpectrumReport& spectrum) {
           {"rounds", spectrum.rounds}};
 }
 
+Json json_of(const PositionsReport& positions) {
+  Json json = {{"kind", positions.kind}};
+  if (positions.mean_displacement) json["mean_displacement"] = number(*positions.mean_displacement);
+  if (positions.largest_displacement) {
+    json["largest_displacement"] = number(*positions.largest_displacement);
+  }
+  if (positions.iterations) json["iterations"] = *positions.iterations;
+  return json;
+}
+
+Json json_of(const PoissonReport& poisson) {
+  return {{"fixed_vertices", poisson.fixed_vertices},
+          {"free_components", poisson.free_components},
+          {"removed_mean", number(poisson.removed_mean)},
+          {"relative_residual", number(poisson.relative_residual)}};
+}
+
 Json json_of(const Timings& t) {
-  return {{"read", number(t.read)},           {"extract", number(t.extract)},
-          {"normals", number(t.normals)},     {"assemble", number(t.assemble)},
-          {"factorize", number(t.factorize)}, {"solve", number(t.solve)},
-          {"write", number(t.write)},         {"total", number(t.total)}};
+  return {{"read", number(t.read)},         {"extract", number(t.extract)},
+          {"normals", number(t.normals)},   {"smooth", number(t.smooth)},
+          {"assemble", number(t.assemble)}, {"factorize", number(t.factorize)},
+          {"solve", number(t.solve)},       {"write", number(t.write)},
+          {"total", number(t.total)}};
 }
 
 Json json_of(const std::string& name, const Statistics& s) {
@@ -105,9 +123,14 @@ void write_report(const std::string& path, const Options& options, const Report&
   if (report.normals) json["normals"] = json_of(*report.normals);
   if (report.calculus) json["calculus"] = json_of(*report.calculus);
   if (report.spectrum) json["spectrum"] = json_of(*report.spectrum);
+  if (report.positions) json["positions"] = json_of(*report.positions);
+  if (report.poisson) json["poisson"] = json_of(*report.poisson);
   if (!report.source_vertices.empty()) json["source_vertices"] = report.source_vertices;
   if (report.result) json["result"] = json_of(report.result_name, *report.result);
   if (report.error) json["error"] = json_of(report.error_name, *report.error);
+  for (const auto& [name, error] : report.further_errors) {
+    json["further_errors"].push_back(json_of(name, error));
+  }
   json["outputs"] = report.outputs;
   json["warnings"] = report.warnings;
   json["timings_s"] = json_of(report.timings);

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dsc::cli {
@@ -44,6 +45,21 @@ struct CalculusReport {
   Index clamped_faces = 0;
 };
 
+/// The positions that functions are sampled at and curvature is taken from.
+struct PositionsReport {
+  std::string kind;  ///< projected, regularised, pointels, or as given (of a mesh)
+  /// How far the vertices moved, world units, and the iterations; regularised only.
+  std::optional<double> mean_displacement, largest_displacement;
+  std::optional<Index> iterations;
+};
+
+struct PoissonReport {
+  Index fixed_vertices = 0;      ///< with a given value
+  Index free_components = 0;     ///< without one; the solution has mean zero there
+  double removed_mean = 0;       ///< the largest that was taken from the right-hand side of one
+  double relative_residual = 0;  ///< of the linear system
+};
+
 struct SpectrumReport {
   std::vector<double> eigenvalues;  ///< ascending
   double residual = 0;              ///< as in Spectrum
@@ -52,7 +68,8 @@ struct SpectrumReport {
 
 /// Wall-clock seconds; 0 for a stage that was not needed.
 struct Timings {
-  double read = 0, extract = 0, normals = 0, assemble = 0, factorize = 0, solve = 0, write = 0;
+  double read = 0, extract = 0, normals = 0, smooth = 0, assemble = 0, factorize = 0, solve = 0,
+         write = 0;
   double total = 0;
 };
 
@@ -63,11 +80,14 @@ struct Report {
   std::optional<NormalsReport> normals;
   std::optional<CalculusReport> calculus;
   std::optional<SpectrumReport> spectrum;
+  std::optional<PositionsReport> positions;
+  std::optional<PoissonReport> poisson;
   std::vector<std::int64_t> source_vertices;
   std::string result_name;  ///< the quantity that `result` is about
   std::optional<Statistics> result;
   std::string error_name;  ///< what `error` measures
   std::optional<ErrorNorms> error;
+  std::vector<std::pair<std::string, ErrorNorms>> further_errors;  ///< of other quantities
   std::vector<std::string> warnings;
   std::vector<std::string> outputs;
   Timings timings;
@@ -82,6 +102,6 @@ Index peak_memory_bytes();
 void write_report(const std::string& path, const Options& options, const Report& report);
 
 /// The short, aligned text for stdout.
-std::string summary(const Options& options, const Report& report);
+std::string summary(const Report& report);
 
 }  // namespace dsc::cli

@@ -21,6 +21,8 @@ struct Scene {
   DigitalSurface surface;
   std::optional<PolygonMesh> polygons = {};
 
+  /// Positions and faces alone.
+  FlatMesh mesh() const { return polygons ? polygons->view() : surface.flat(false); }
   Vec3View positions() const { return polygons ? polygons->view().positions : surface.positions(); }
 };
 

@@ -75,6 +75,7 @@ std::string text_of(const Timings& t) {
   add("read", t.read);
   add("extract", t.extract);
   add("normals", t.normals);
+  add("smooth", t.smooth);
   add("assemble", t.assemble);
   add("factorize", t.factorize);
   add("solve", t.solve);
@@ -84,7 +85,7 @@ std::string text_of(const Timings& t) {
 
 }  // namespace
 
-std::string summary(const Options& options, const Report& report) {
+std::string summary(const Report& report) {
   std::string text;
   if (report.input) text += line("input", text_of(*report.input));
   if (report.mesh_input) text += line("input", text_of(*report.mesh_input));
@@ -94,7 +95,7 @@ std::string summary(const Options& options, const Report& report) {
     text +=
         line("calculus",
              fmt::format("{}, lambda {:g}, {}", report.calculus->projected ? "projected" : "naive",
-                         options.lambda,
+                         report.calculus->lambda,
                          counted(report.calculus->clamped_faces, "clamped face", "clamped faces")));
   }
   if (report.spectrum) {
@@ -109,6 +110,24 @@ std::string summary(const Options& options, const Report& report) {
     if (all.size() > kShown) values += ", ...";
     text += line("spectrum", values);
   }
+  if (report.positions) {
+    const PositionsReport& p = *report.positions;
+    std::string moved = p.kind;
+    if (p.mean_displacement) {
+      moved += fmt::format(", moved by {:.4g} on average, {:.4g} at most", *p.mean_displacement,
+                           *p.largest_displacement);
+    }
+    text += line("positions", moved);
+  }
+  if (report.poisson) {
+    const PoissonReport& p = *report.poisson;
+    std::string values = counted(p.fixed_vertices, "fixed vertex", "fixed vertices");
+    if (p.free_components > 0) {
+      values += fmt::format(", {} without one, mean {:.4g} removed",
+                            counted(p.free_components, "component", "components"), p.removed_mean);
+    }
+    text += line("poisson", values);
+  }
   if (report.result) {
     const Statistics& s = *report.result;
     std::string values = fmt::format("min {:.6g}, max {:.6g}, mean {:.6g}", s.min, s.max, s.mean);
@@ -119,6 +138,10 @@ std::string summary(const Options& options, const Report& report) {
     const ErrorNorms& e = *report.error;
     text += line("error", fmt::format("mean {:.4g}, max {:.4g}, l2 {:.4g} ({})", e.mean, e.max,
                                       e.l2, report.error_name));
+  }
+  for (const auto& [name, e] : report.further_errors) {
+    text +=
+        line("", fmt::format("mean {:.4g}, max {:.4g}, l2 {:.4g} ({})", e.mean, e.max, e.l2, name));
   }
   for (const std::string& path : report.outputs) text += line("written", path);
   text += line("time", fmt::format("{}; peak memory {:.0f} MB", text_of(report.timings),

@@ -297,6 +297,11 @@ TEST_F(RealVoxels, GoThroughEveryCommand) {
       {"normals", "-o", folder / "n.vtp"},
       {"normals", "--estimator", "trivial", "-o", folder / "t.csv"},
       {"gradient", "--function", "x+y*z", "-o", folder / "g.vtp"},
+      {"curvature", "-o", folder / "k.vtp"},
+      {"curvature", "--estimator", "laplacian", "--diffuse", "9", "-o", folder / "h.ply"},
+      {"laplacian", "--function", "x+y*z", "--diffuse", "9", "-o", folder / "l.om"},
+      {"poisson", "--rhs", "x", "-o", folder / "p.vtp"},
+      {"surface", "--regularise", "-o", folder / "r.off"},
       Words{"diffuse", "--time", "9", "-o", folder / "w.csv"} + source,
       Words{"geodesic", "-o", folder / "d.ply"} + source};
   for (const Words& command : commands) {

@@ -13,5 +13,8 @@ void run_gradient(Run& run);
 void run_diffuse(Run& run);
 void run_geodesic(Run& run);
 void run_spectrum(Run& run);
+void run_curvature(Run& run);
+void run_laplacian(Run& run);
+void run_poisson(Run& run);
 
 }  // namespace dsc::cli

@@ -1,12 +1,16 @@
 #include "libdsc/cli/commands/commands.h"
-#include "libdsc/cli/stages.h"
+#include "libdsc/cli/smooth_surface.h"
 
 namespace dsc::cli {
 
 void run_surface(Run& run) {
-  const Scene scene = open_scene(run);
-  const FlatMesh mesh = scene.polygons ? scene.polygons->view() : scene.surface.flat(false);
-  write_outputs(scene, {mesh, {}}, run);
+  Scene scene = open_scene(run);
+  if (!run.options.regularise) {
+    write_outputs(scene, {scene.mesh(), {}}, run);
+    return;
+  }
+  if (!scene.polygons) estimate_normals(scene, run);
+  write_outputs(scene, {regularised_surface(scene, run).mesh, {}}, run);
 }
 
 }  // namespace dsc::cli

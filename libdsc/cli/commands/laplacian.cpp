@@ -1,0 +1,59 @@
+#include "libdsc/algorithms/laplace_beltrami.h"
+#include "libdsc/cli/commands/commands.h"
+#include "libdsc/cli/known_curvatures.h"
+#include "libdsc/cli/smooth_surface.h"
+
+namespace dsc::cli {
+namespace {
+
+void measure_error(const Expression& f, const ImplicitShape& shape, Vec3View points,
+                   const Eigen::VectorXd& laplacian, Run& run) {
+  const auto known = known_laplacians(shape, f, points, run.context);
+  std::vector<double> errors;
+  for (std::size_t v = 0; v < known.size(); ++v) {
+    if (known[v]) errors.push_back(laplacian[static_cast<Index>(v)] - *known[v]);
+  }
+  run.report.error_name = "against the exact Laplace-Beltrami operator";
+  run.report.error =
+      error_norms(Eigen::Map<const Eigen::VectorXd>(errors.data(), std::ssize(errors)));
+}
+
+}  // namespace
+
+void run_laplacian(Run& run) {
+  const Expression f(run.options.function);  // a typing error shows at once
+  const Scene scene = prepare_scene(run);
+  const SmoothSurface smooth = smooth_surface(scene, run);
+  const Eigen::VectorXd values = sample(f, smooth.points(), scene, run);
+
+  Timings& timings = run.report.timings;
+  LaplaceBeltramiOptions options;
+  options.calculus = calculus_options(run);
+  options.time = run.options.time.value_or(0.);
+  std::optional<LaplaceBeltrami> op;
+  {
+    const Stopwatch watch(timings.assemble);
+    op.emplace(smooth.mesh, options, run.context);
+  }
+  timings.factorize = op->seconds_factorize();
+  timings.assemble -= timings.factorize;
+  run.report.calculus =
+      CalculusReport{smooth.mesh.has_normals(), run.options.lambda, op->system().clamped_faces};
+  Solution laplacian;
+  {
+    const Stopwatch watch(timings.solve);
+    laplacian = (*op)(values);
+  }
+  run.report.result_name = "laplacian";
+  run.report.result = statistics_of(laplacian.x);
+  if (scene.input.shape) {
+    measure_error(f, *scene.input.shape, smooth.points(), laplacian.x, run);
+  }
+  write_outputs(scene,
+                {scene.mesh(),
+                 {scalar_field("function", FieldOn::vertex, values),
+                  scalar_field("laplacian", FieldOn::vertex, laplacian.x)}},
+                run);
+}
+
+}  // namespace dsc::cli

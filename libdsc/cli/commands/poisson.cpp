@@ -1,0 +1,122 @@
+#include "libdsc/algorithms/poisson.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/cli/commands/commands.h"
+#include "libdsc/cli/smooth_surface.h"
+#include "libdsc/solve/boundary.h"
+#include "libdsc/solve/components.h"
+
+#include <cmath>
+
+namespace dsc::cli {
+namespace {
+
+/// Which vertices have given values, and which components nothing but a free constant.
+struct Conditions {
+  std::vector<VertexId> fixed;  ///< on the boundary; and the lowest vertex of each free component
+  Components components;
+  std::vector<char> free;  ///< a component
+  Index free_count = 0;
+};
+
+Conditions conditions_of(const FlatMesh& mesh, bool fix) {
+  Conditions c;
+  c.components = connected_components(mesh);
+  c.free.assign(static_cast<std::size_t>(c.components.count()), 1);
+  if (fix) {
+    const std::vector<char> boundary = boundary_vertices(mesh);
+    for (std::size_t v = 0; v < boundary.size(); ++v) {
+      if (boundary[v] == 0) continue;
+      c.fixed.push_back(static_cast<VertexId>(v));
+      c.free[static_cast<std::size_t>(c.components.of_vertex[v])] = 0;
+    }
+    if (c.fixed.empty()) {
+      throw UsageError(
+          "--fix gives values on the boundary, but the surface has none; leave it out");
+    }
+  }
+  for (std::size_t k = 0; k < c.free.size(); ++k) {
+    if (c.free[k] == 0) continue;
+    ++c.free_count;
+    if (fix) c.fixed.push_back(c.components.lowest[k]);
+  }
+  return c;
+}
+
+/// Takes from `density` its mean, weighted by `mass`, on every free component. Returns the largest
+/// mean, in size.
+double remove_means(Eigen::VectorXd& density, const Eigen::VectorXd& mass, const Conditions& c) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(c.components.count()), masses = sums;
+  const auto& of = c.components.of_vertex;
+  for (std::size_t v = 0; v < of.size(); ++v) {
+    sums[of[v]] += mass[static_cast<Index>(v)] * density[static_cast<Index>(v)];
+    masses[of[v]] += mass[static_cast<Index>(v)];
+  }
+  double largest = 0;
+  for (Index k = 0; k < sums.size(); ++k) {
+    const bool applies = c.free[static_cast<std::size_t>(k)] != 0 && masses[k] > 0;
+    sums[k] = applies ? sums[k] / masses[k] : 0.;
+    largest = std::max(largest, std::abs(sums[k]));
+  }
+  for (std::size_t v = 0; v < of.size(); ++v) density[static_cast<Index>(v)] -= sums[of[v]];
+  return largest;
+}
+
+/// Where the vertices digitise a shape, its points closest to them; else the vertices.
+Eigen::Matrix3Xd sample_points(const Scene& scene, Run& run) {
+  if (scene.input.shape) return smooth_surface(scene, run).positions;
+  return scene.positions().matrix();
+}
+
+}  // namespace
+
+void run_poisson(Run& run) {
+  const Expression rhs(run.options.rhs);
+  std::optional<Expression> fix;
+  if (!run.options.fix.empty()) fix.emplace(run.options.fix);
+  const Scene scene = prepare_scene(run);
+  const FlatMesh mesh = flat_mesh(scene, run);
+  const Conditions conditions = conditions_of(mesh, fix.has_value());
+
+  const Eigen::Matrix3Xd positions = sample_points(scene, run);
+  const Vec3View points{positions.data(), positions.cols()};
+  Eigen::VectorXd density = sample(rhs, points, scene, run);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertices());
+  if (fix) values = sample(*fix, points, scene, run);
+
+  Timings& timings = run.report.timings;
+  PoissonOptions options;
+  options.calculus = calculus_options(run);
+  options.solver.method = SolverMethod::automatic;
+  options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
+    const Stopwatch watch(timings.factorize);
+    return make_spd_solver(std::move(A), solver, context);
+  };
+  std::optional<PoissonProblem> problem;
+  {
+    const Stopwatch watch(timings.assemble);
+    problem.emplace(mesh, conditions.fixed, options, run.context);
+  }
+  timings.assemble -= timings.factorize;
+  note_calculus(problem->clamped_faces(), run);
+
+  PoissonReport report;
+  report.fixed_vertices = static_cast<Index>(conditions.fixed.size());
+  report.free_components = conditions.free_count;
+  if (fix) report.fixed_vertices -= conditions.free_count;
+  report.removed_mean = remove_means(density, problem->mass(), conditions);
+  Solution solution;
+  {
+    const Stopwatch watch(timings.solve);
+    solution = problem->solve(problem->mass().cwiseProduct(density), values);
+  }
+  remove_means(solution.x, problem->mass(), conditions);
+  report.relative_residual = solution.relative_residual;
+  run.report.poisson = report;
+  run.report.result_name = "solution";
+  run.report.result = statistics_of(solution.x);
+  write_outputs(scene, {scene.mesh(), {scalar_field("solution", FieldOn::vertex, solution.x)}},
+                run);
+}
+
+}  // namespace dsc::cli
