@@ -67,6 +67,17 @@ TEST(PolygonTopology, ThreePagesMeetAtOneEdge) {
   EXPECT_EQ(count_isolated_vertices(p.view()), 1);
 }
 
+TEST(PolygonTopology, SidesAreLinkedInPairsOnly) {
+  using Links = std::vector<VertexId>;
+  const Polygons pages(5, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}});
+  EXPECT_EQ(linked_sides(pages.view(), SideLinks::any), Links(9, -1));
+  const Polygons opposed(4, {{0, 1, 2}, {1, 0, 3}});
+  EXPECT_EQ(linked_sides(opposed.view(), SideLinks::opposed), (Links{3, -1, -1, 0, -1, -1}));
+  const Polygons alike(4, {{0, 1, 2}, {0, 1, 3}});
+  EXPECT_EQ(linked_sides(alike.view(), SideLinks::any), (Links{3, -1, -1, 0, -1, -1}));
+  EXPECT_EQ(linked_sides(alike.view(), SideLinks::opposed), Links(6, -1));
+}
+
 TEST(PolygonTopology, TwoFansAtOneVertexPinchIt) {
   const Polygons p(5, {{0, 1, 2}, {0, 3, 4}});
   const SurfaceCounts c = count_polygons(p.view());
