@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 namespace dsc::test {
 namespace {
@@ -188,6 +190,43 @@ TEST(MeshInput, ADigitalSurfaceFromAFileGivesTheSameResults) {
           ASSERT_NEAR(found.fields[0].values[v], expected.fields[0].values[v], 1e-6 * scale);
         }
       }
+    }
+  }
+}
+
+/// Faces of several labels meet at most edges here, so that .om holds a mesh in many pieces.
+TEST(MeshInput, DistancesCrossTheJunctionsOfAMeshFile) {
+  const Folder folder;
+  constexpr int n = 9;
+  std::mt19937 random(3);
+  std::string labels;
+  for (int i = 0; i < n * n * n; ++i) labels += static_cast<char>(random() % 4);
+  write_file(folder / "labels.raw", labels);
+  const Words voxels = {
+      folder / "labels.raw", "--size", "9,9,9", "--type", "u8", "--labels", "all", "--radius", "3"};
+  ASSERT_EQ(
+      run_dsc(Words{"normals"} + voxels + Words{"-o", folder / "s.ply", "-o", folder / "s.om"})
+          .exit_code,
+      0);
+  const Words geodesic = {"geodesic", "--source", "4,4,4", "-o", folder / "d.ply"};
+  const auto report = report_of(geodesic + voxels);
+  EXPECT_GT(report["surface"]["nonmanifold_edges"], 500);
+  const PolygonMesh expected = read_mesh(folder / "d.ply");
+  for (const char* file : {"s.ply", "s.om"}) {
+    const auto polygons = report_of(geodesic + Words{folder / file});
+    for (const char* count : {"vertices", "edges", "nonmanifold_edges", "euler", "components"}) {
+      EXPECT_EQ(polygons["surface"][count], report["surface"][count]) << count;
+    }
+    const PolygonMesh found = read_mesh(folder / "d.ply");
+    EXPECT_EQ(found.positions, expected.positions);
+    const auto distance = [](const PolygonMesh& mesh) -> const std::vector<double>& {
+      return std::find_if(mesh.fields.begin(), mesh.fields.end(),
+                          [](const MeshField& f) { return f.name == "distance"; })
+          ->values;
+    };
+    for (Index v = 0; v < found.positions.cols(); ++v) {
+      const auto at = static_cast<std::size_t>(v);
+      ASSERT_NEAR(distance(found)[at], distance(expected)[at], 1e-8) << file;
     }
   }
 }
