@@ -35,6 +35,13 @@ if(DSC_WITH_CHOLMOD)
   dsc_require(CHOLMOD "libsuitesparse-dev libopenblas-dev")
 endif()
 
+if(DSC_WITH_ITK)  # its targets: libdsc/io/itk/
+  find_package(ITK 5 QUIET COMPONENTS ITKIOImageBase)
+  if(NOT ITK_FOUND)
+    string(APPEND _dsc_missing "\n  ITK 5 (Debian: libinsighttoolkit5-dev)")
+  endif()
+endif()
+
 if(_dsc_missing)
   message(FATAL_ERROR "libdsc needs what this system does not have:${_dsc_missing}\n"
     "On Debian, ./cmake/bootstrap.sh test installs all of it.")

@@ -14,6 +14,10 @@ std::unique_ptr<VolumeSource> open_vol(const std::string& path, bool longvol);
 std::unique_ptr<VolumeSource> open_npy(const std::string& path);
 std::unique_ptr<VolumeSource> open_vox(const std::string& path);
 
+/// Whether dsc-image-reader is to read it: by its extension, or because it is a folder.
+bool is_image(const std::string& path);
+std::unique_ptr<VolumeSource> open_image(const std::string& path);
+
 /// Delivers the next bytes of the values.
 using ByteReader = std::function<void(void* to, Index bytes)>;
 

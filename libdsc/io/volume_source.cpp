@@ -78,7 +78,10 @@ std::string extension_of(const std::string& path) {
 
 }  // namespace detail
 
-std::string volume_endings() { return ".vol, .longvol, .npy, .vox"; }
+std::string volume_endings() {
+  return ".vol, .longvol, .npy, .vox, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, .tif, .tiff, a "
+         "folder of TIFF or DICOM slices";
+}
 
 ValueType value_type(const std::string& name) {
   const std::size_t digits = name.find_first_of("123456789");
@@ -106,6 +109,7 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path) {
     throw UsageError("'" + path +
                      "': a raw file does not say how its values lie; give its size and type");
   }
+  if (detail::is_image(path)) return detail::open_image(path);
   throw UsageError("'" + path + "': the extension '" + extension + "' is no volume format; " +
                    volume_endings() + " are read, and raw files with size and type");
 }

@@ -13,10 +13,16 @@
 ///   1.
 /// - `.vox` (MagicaVoxel): one model; the values are the colours' numbers, 1 to 255, and 0 where
 ///   there is no voxel; z is up. Spacing 1.
+/// - `.nii`, `.nii.gz`, `.nrrd`, `.nhdr`, `.mha`, `.mhd`, `.tif`, `.tiff` (pages are slices), a
+///   folder of TIFF slices (in the natural order of their names) or of one DICOM series: by ITK, in
+///   a process of its own, the program dsc-image-reader (option DSC_WITH_ITK). Spacing in
+///   millimetres and place in the world as the file has them: the world is LPS, x to the patient's
+///   left, y to the back, z to the head, in millimetres, whatever the file's own convention (NIfTI
+///   counts x and y the other way). TIFF knows of neither: spacing 1.
 /// - anything, by open_raw_volume(): the values alone, x fastest, then y, then z. Spacing 1.
 ///
 /// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k), which is also its place in
-/// the world.
+/// the world, but for medical images.
 #pragma once
 
 #include "libdsc/base/context.h"

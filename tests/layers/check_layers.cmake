@@ -12,6 +12,7 @@ set(restricted
   "^OpenMesh/"                                    "^(surface/|io/|calculus/on_mesh\\.h$)"
   "^CGAL/"                                        "^truth/"
   "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|sys/.*|zlib\\.h)$"  "^(io|cli)/"
+  "^(itk|gdcm)"                                   "^io/itk/"
   "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
   "^thread$"                                      "^(base|cli)/"
   "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"

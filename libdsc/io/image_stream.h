@@ -1,0 +1,26 @@
+/// \file
+/// What goes through the pipe from the program dsc-image-reader to the process that started it: an
+/// ImageHeader, the values (x fastest, then y, then z), kImageEnd. Both run on one machine, so
+/// everything is as it lies in memory. Private to io/.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+namespace dsc::detail {
+
+inline constexpr char kImageStart[8] = {'d', 's', 'c', 'i', 'm', 'g', '0', '1'};
+inline constexpr char kImageEnd[8] = {'d', 's', 'c', 'i', 'm', 'g', 'e', 'n'};
+
+struct ImageHeader {
+  char start[8];         ///< kImageStart
+  std::int64_t size[3];  ///< voxels
+  std::int32_t bytes;    ///< of a value: 1, 2, 4, 8
+  std::int32_t kind;     ///< 0 unsigned, 1 signed, 2 float
+  double spacing[3];     ///< millimetres
+  double origin[3];      ///< centre of the first voxel, millimetres, LPS
+  double direction[9];   ///< row by row; columns are the axes of the volume in LPS
+};
+static_assert(std::is_trivially_copyable_v<ImageHeader>);
+
+}  // namespace dsc::detail
