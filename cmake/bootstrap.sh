@@ -2,16 +2,18 @@
 # From a fresh clone to a result, with one command. On Debian 12 it installs what is missing; git
 # and ca-certificates, for the clone, are all that must be there before.
 #
-#   ./cmake/bootstrap.sh demo [FILE]   builds the program and shows its main job, on the voxels of
-#                                      FILE (.vol, .longvol, .npy) or on a built-in shape; the
-#                                      results are in out/
+#   ./cmake/bootstrap.sh demo [FILE]   builds the program and shows its main job, on FILE (voxels,
+#                                      a medical image or a folder of its slices) or on a built-in
+#                                      shape; the results are in out/
+#   ./cmake/bootstrap.sh atlas         the same on two atlases of the brain, all their regions at
+#                                      once; needs another 60 MB of packages, for ITK
 #   ./cmake/bootstrap.sh test          builds everything, runs every test
 #   ./cmake/bootstrap.sh figures       builds the program, measures the README's table of figures
 #                                      anew and writes it there; real voxels from DSC_TEST_DATA
 set -euo pipefail
 
 usage() {
-  sed -n '5,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -20,7 +22,8 @@ say() { printf '== %s\n' "$*"; }
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
-test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev)
+image_packages=(libinsighttoolkit5-dev)
+test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev "${image_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -41,6 +44,7 @@ install_missing() {
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
     [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
+    [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
     return
   fi
@@ -90,13 +94,27 @@ case $mode in
     (($# <= 1)) || usage
     input=
     if (($# == 1)); then
-      [[ -r $1 && -f $1 ]] || { echo "bootstrap.sh: $1: no such file" >&2; exit 2; }
+      [[ -r $1 && (-f $1 || -d $1) ]] || { echo "bootstrap.sh: $1: no such file" >&2; exit 2; }
       input=$(realpath -- "$1")
     fi
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
-    install_missing "${library_packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
+    packages=("${library_packages[@]}")
+    with_itk=()
+    case ${input,,} in
+      *.nii | *.nii.gz | *.nrrd | *.nhdr | *.mha | *.mhd | *.tif | *.tiff) with_itk=(-DDSC_WITH_ITK=ON) ;;
+    esac
+    [[ ! -d $input ]] || with_itk=(-DDSC_WITH_ITK=ON)
+    ((${#with_itk[@]} == 0)) || packages+=("${image_packages[@]}")
+    install_missing "${packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF "${with_itk[@]}"
     exec ./cmake/demo.sh build/release/bin/dsc ${input:+"$input"}
+    ;;
+  atlas)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}" "${image_packages[@]}" mricron-data
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_ITK=ON
+    exec ./cmake/atlas.sh build/release/bin/dsc
     ;;
   test)
     (($# == 0)) || usage
