@@ -52,7 +52,8 @@ Json json_of(const SurfaceCounts& counts, Adjacency adjacency) {
 Json json_of(const NormalsReport& normals) {
   Json json = {{"estimator", normals.estimator},
                {"radius", number(normals.radius)},
-               {"fallbacks", normals.fallbacks}};
+               {"fallbacks", normals.fallbacks},
+               {"cut_faces", normals.cut_faces}};
   if (normals.third_label_faces) json["third_label_faces"] = *normals.third_label_faces;
   return json;
 }

@@ -35,6 +35,7 @@ struct NormalsReport {
   std::string estimator;
   double radius = 0;    ///< world units; 0 where the estimator has none
   Index fallbacks = 0;  ///< faces whose estimate had to be replaced
+  Index cut_faces = 0;  ///< faces whose ball was continued beyond the volume
   /// Of a label image: faces whose ball meets a label beyond their own two.
   std::optional<Index> third_label_faces;
 };

@@ -81,6 +81,9 @@ void estimate_normals(Scene& scene, Run& run) {
       IntegralInvariantOptions options;
       options.radius = ball_radius(run.options, input.shape != nullptr, input.grid().spacing);
       options.centre = run.options.centre;
+      // Shapes go on by themselves: their volume is wider than the surface.
+      const bool cut = input.border == Border::open && !input.shape;
+      options.beyond = cut ? Beyond::continued : Beyond::empty;
       report = std::visit(
           [&](const auto& volume) {
             return integral_invariant_normals(surface, volume, options, run.context);
@@ -95,8 +98,8 @@ void estimate_normals(Scene& scene, Run& run) {
       report = analytic_normals(surface, *input.shape, run.context);
       break;
   }
-  run.report.normals =
-      NormalsReport{name_of(run.options.estimator), report.radius, report.fallbacks, {}};
+  run.report.normals = NormalsReport{
+      name_of(run.options.estimator), report.radius, report.fallbacks, report.cut_faces, {}};
   const bool balls = run.options.estimator == Estimator::integral_invariant;
   if (balls && run.options.labelled()) {
     run.report.normals->third_label_faces = report.third_label_faces;

@@ -60,6 +60,9 @@ std::string text_of(const NormalsReport& normals) {
   std::string text = normals.estimator == "ii" ? "integral invariant" : normals.estimator;
   if (normals.radius > 0) text += fmt::format(", radius {:.4g}", normals.radius);
   if (normals.fallbacks > 0) text += ", " + counted(normals.fallbacks, "fallback", "fallbacks");
+  if (normals.cut_faces > 0) {
+    text += ", continued beyond the border near " + counted(normals.cut_faces, "face", "faces");
+  }
   if (normals.third_label_faces.value_or(0) > 0) {
     text += ", a third label near " + counted(*normals.third_label_faces, "face", "faces");
   }

@@ -2,35 +2,15 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/normals/ball_masks.h"
-#include "libdsc/normals/row_sums.h"
+#include "libdsc/normals/continued_ball.h"
+#include "libdsc/normals/row_scan.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace dsc {
 namespace {
 
 __extension__ using Wide = __int128;
-
-/// The voxels x in [low, high] of row (y, z), all within the grid, relative to doubled cx.
-RowSums scan_row(const BinaryVolume& volume, Index low, Index high, Index y, Index z, Index cx) {
-  RowSums sums;
-  const Index first_word = (low + 1) >> 6;
-  const Index last_word = (high + 1) >> 6;
-  for (Index w = first_word; w <= last_word; ++w) {
-    BinaryVolume::Word bits = volume.word(w, y, z);
-    if (w == first_word) bits &= ~BinaryVolume::Word{0} << ((low + 1) & 63);
-    if (w == last_word) bits &= ~BinaryVolume::Word{0} >> (63 - ((high + 1) & 63));
-    while (bits != 0) {
-      const int start = std::countr_zero(bits);
-      const int length = std::countr_one(bits >> start);
-      add_run(sums, 2 * (64 * w + start - 1) - cx, length);
-      if (start + length == 64) break;
-      bits &= ~BinaryVolume::Word{0} << (start + length);
-    }
-  }
-  return sums;
-}
 
 }  // namespace
 
@@ -85,6 +65,12 @@ bool BallScanner::vectorised() const {
 BallMoments BallScanner::operator()(const Index3& centre) const {
   const BallMasks* masks = masks_[kind(centre)].get();
   return masks != nullptr ? masks->moments(volume_, centre) : plain(centre);
+}
+
+BallMoments BallScanner::continued(const Index3& centre, bool& cut) const {
+  const BallRows& rows = rows_[kind(centre)];
+  cut = reaches_beyond(volume_.grid(), rows, centre);
+  return cut ? continued_moments(volume_, rows, centre) : (*this)(centre);
 }
 
 BallMoments BallScanner::plain(const Index3& centre) const {

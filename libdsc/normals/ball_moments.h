@@ -51,6 +51,10 @@ class BallScanner {
   /// without it.
   BallMoments plain(const Index3& centre) const;
 
+  /// The same for a volume whose object goes on beyond it (continued_ball.h). `cut` tells whether
+  /// the ball reaches there.
+  BallMoments continued(const Index3& centre, bool& cut) const;
+
   /// Whether operator() goes through the vector path for every kind of centre.
   bool vectorised() const;
 

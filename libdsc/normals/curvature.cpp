@@ -79,8 +79,8 @@ CurvatureField integral_invariant_curvatures(const BinaryVolume& volume,
     vectors->resize(3, n);
   }
   std::vector<char> fallback(surfels.size(), 0);
-  visit_balls(
-      volume, surfels, {r, BallCentre::surfel},
+  field.cut_faces = visit_balls(
+      volume, surfels, {r, BallCentre::surfel, options.beyond},
       [&](Index i, std::span<const BallMoments> balls) {
         const Surfel& surfel = surfels[static_cast<std::size_t>(i)];
         const HalfBall& flat = half[static_cast<std::size_t>(surfel.axis())];

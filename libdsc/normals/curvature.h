@@ -23,9 +23,10 @@
 /// exactly 0, and only the offset and the curvature of the surface count. (In the continuum, Vol_0
 /// = 2 pi r^3 / 3 and e_i = lambda_i - 2 pi r^5 / 15.)
 ///
-/// The sums are exact integers, so the results have the same bits for any thread count. Outside the
-/// volume there is nothing: near a border that cuts the object, the cut is felt as an edge. The
-/// centre of a thin part or of a sharp corner gives the average over the ball, of the order of 1/r.
+/// The sums are exact integers, so the results have the same bits for any thread count. Where a
+/// border cuts the object and nothing is assumed beyond, the cut is felt as an edge; continued
+/// (Beyond), a plane stays a plane there, but a curved surface seems flatter than it is. The centre
+/// of a thin part or of a sharp corner gives the average over the ball, of the order of 1/r.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -43,6 +44,7 @@ enum class CurvatureForm {
 struct CurvatureOptions {
   double radius = 0;  ///< world units; see radius.h
   CurvatureForm form = CurvatureForm::centred;
+  Beyond beyond = Beyond::empty;
 };
 
 /// One value a surfel, 1 / length (gaussian: its square), positive where the shape is convex.
@@ -56,6 +58,7 @@ struct CurvatureField {
   Eigen::Matrix3Xd direction_2;  ///< n x direction_1
   Eigen::Matrix3Xd normals;      ///< n, as integral_invariant_normals() gives it
   Index fallbacks = 0;  ///< surfels where the ball defines no normal, and n is the surfel's own
+  Index cut_faces = 0;  ///< surfels whose ball was continued beyond the volume
   double radius = 0;
 };
 

@@ -6,7 +6,7 @@
 /// (Pottmann et al. 2007; convergent on digitised shapes: Lachaud, Coeurjolly, Levallois 2017). The
 /// sums are exact integers (ball_moments.h), so u has the same bits for any thread count.
 ///
-/// Outside the volume there is nothing: near a border that cuts the object, u feels the cut.
+/// Where a border cuts the object and nothing is assumed beyond, u feels the cut; see Beyond.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -26,9 +26,16 @@ enum class BallCentre {
                ///< voxel
 };
 
+/// What the balls find outside the volume.
+enum class Beyond {
+  empty,      ///< nothing: the object ends where the volume ends
+  continued,  ///< the object goes on, where its surface was left open (continued_ball.h)
+};
+
 struct IntegralInvariantOptions {
   double radius = 0;  ///< world units; see radius.h
   BallCentre centre = BallCentre::surfel;
+  Beyond beyond = Beyond::empty;
 };
 
 /// One normal a surfel.
@@ -45,9 +52,10 @@ NormalField integral_invariant_normals(const BinaryVolume& volume, std::span<con
 /// each relative to its own centre.
 using BallVisitor = std::function<void(Index i, std::span<const BallMoments> balls)>;
 
-/// Calls visit for every surfel, each once, from many threads in any order. \throws as above.
-void visit_balls(const BinaryVolume& volume, std::span<const Surfel> surfels,
-                 const IntegralInvariantOptions& options, const BallVisitor& visit,
-                 const Context& context = {});
+/// Calls visit for every surfel, each once, from many threads in any order. Returns the number of
+/// surfels with balls that were continued beyond the volume. \throws as above.
+Index visit_balls(const BinaryVolume& volume, std::span<const Surfel> surfels,
+                  const IntegralInvariantOptions& options, const BallVisitor& visit,
+                  const Context& context = {});
 
 }  // namespace dsc

@@ -10,6 +10,7 @@ namespace dsc {
 struct NormalField {
   Eigen::Matrix3Xd u;   ///< 3 x F, unit columns
   Index fallbacks = 0;  ///< faces where the estimator had no answer and u is the face's own normal
+  Index cut_faces = 0;  ///< faces whose ball was continued beyond the volume (continued_ball.h)
   double radius = 0;    ///< world radius of the estimator's neighbourhood; 0 where it has none
 };
 

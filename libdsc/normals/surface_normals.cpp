@@ -8,7 +8,7 @@ namespace {
 
 NormalReport write(DigitalSurface& surface, const NormalField& field) {
   surface.set_normals(field.u);
-  return {field.fallbacks, field.radius, 0};
+  return {field.fallbacks, field.radius, field.cut_faces, 0};
 }
 
 void check_grid(const DigitalSurface& surface, const Grid& grid) {

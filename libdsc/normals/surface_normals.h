@@ -17,6 +17,7 @@ class DigitalSurface;
 struct NormalReport {
   Index fallbacks = 0;          ///< faces that kept their own normal
   double radius = 0;            ///< world radius of the ball; 0 where the estimator has none
+  Index cut_faces = 0;          ///< faces whose ball was continued beyond the volume
   Index third_label_faces = 0;  ///< of label volumes: faces whose ball meets a third label
 };
 
