@@ -3,7 +3,9 @@
 #include "libdsc/base/error.h"
 #include "libdsc/calculus/assembly.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace dsc {
@@ -21,12 +23,31 @@ SparseMatrix heat_matrix(const LaplaceSystem& system, double t) {
   return diagonal - t * system.L;
 }
 
+namespace {
+
+/// The rounding of t L u relative to M0 u, for a constant u.
+double rounding_of(const LaplaceSystem& system, double t) {
+  double largest = 0;
+  for (Index v = 0; v < system.L.rows(); ++v) {
+    if (system.mass[v] > 0) largest = std::max(largest, -system.L.coeff(v, v) / system.mass[v]);
+  }
+  return t * largest * std::numeric_limits<double>::epsilon();
+}
+
+}  // namespace
+
 HeatDiffusion::HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOptions& options,
                              const Context& context)
     : time_(t) {
   LaplaceSystem system = assemble_laplacian(mesh, options.calculus, context);
   clamped_faces_ = system.clamped_faces;
   SparseMatrix A = heat_matrix(system, t);
+  const double rounding = rounding_of(system, t);
+  if (static_cast<double>(system.L.rows() + 10) * rounding > 1) {
+    throw UsageError("diffusion: after the time " + std::to_string(t) +
+                     " heat is even to the last digit; choose a shorter one");
+  }
+  if (rounding > options.solver.tolerance) components_ = connected_components(mesh);
   weight_ = system.mass;
   for (double& w : weight_) {
     if (w == 0) w = 1;
@@ -41,7 +62,28 @@ Solution HeatDiffusion::step(const Eigen::VectorXd& u0) const {
     throw UsageError("diffusion: the function has " + std::to_string(u0.size()) + " values for " +
                      std::to_string(mass_.size()) + " vertices");
   }
-  return solver_->solve(weight_.cwiseProduct(u0), u0);
+  if (components_.count() == 0) return solver_->solve(weight_.cwiseProduct(u0), u0);
+  // The means stay as they are, and what varies around them is solved for alone: t L times a large
+  // constant would be rounding only.
+  const Eigen::VectorXd mean = component_means(u0);
+  Solution s = solver_->solve(weight_.cwiseProduct(u0 - mean));
+  s.x += mean;
+  return s;
+}
+
+Eigen::VectorXd HeatDiffusion::component_means(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(components_.count());
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(components_.count());
+  const auto component = [&](Index v) {
+    return components_.of_vertex[static_cast<std::size_t>(v)];
+  };
+  for (Index v = 0; v < u.size(); ++v) {
+    heat[component(v)] += weight_[v] * u[v];
+    mass[component(v)] += weight_[v];
+  }
+  Eigen::VectorXd mean(u.size());
+  for (Index v = 0; v < u.size(); ++v) mean[v] = heat[component(v)] / mass[component(v)];
+  return mean;
 }
 
 Solution diffuse(const FlatMesh& mesh, const Eigen::VectorXd& u0, double t,

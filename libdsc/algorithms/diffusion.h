@@ -6,6 +6,7 @@
 #pragma once
 
 #include "libdsc/calculus/options.h"
+#include "libdsc/solve/components.h"
 #include "libdsc/solve/spd_solver.h"
 #include "libdsc/surface/flat_mesh.h"
 
@@ -26,7 +27,8 @@ struct DiffusionOptions {
 /// Factorizes once for a surface and a time step, then takes any number of steps.
 class HeatDiffusion {
  public:
-  /// `t` > 0 in units of length squared. \throws UsageError on another t, and as assemble_laplacian
+  /// `t` > 0 in units of length squared. \throws UsageError on another t, and on one so long that
+  /// nothing but the means is left of any heat, to the last digit; and as assemble_laplacian
   /// and make_spd_solver do. The mesh is not needed afterwards.
   HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOptions& options = {},
                 const Context& context = {});
@@ -40,7 +42,10 @@ class HeatDiffusion {
   Index clamped_faces() const { return clamped_faces_; }
 
  private:
+  Eigen::VectorXd component_means(const Eigen::VectorXd& u) const;
+
   double time_;
+  Components components_;  ///< known only where t is so long that the means are split off
   Eigen::VectorXd mass_;
   Eigen::VectorXd weight_;  ///< mass, but 1 at vertices without faces
   Index clamped_faces_ = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 namespace dsc::cli {
 
@@ -63,6 +64,24 @@ Scene open_scene(Run& run) {
   return {std::move(input), std::move(surface), {}};
 }
 
+Beyond beyond_of(const Input& input) {
+  // Shapes go on by themselves: their volume is wider than the surface.
+  const bool cut = input.border == Border::open && !input.shape;
+  return cut ? Beyond::continued : Beyond::empty;
+}
+
+void check_default_radius(const Input& input, double radius, Run& run) {
+  if (run.options.radius || !input.shape) return;
+  const double half = 0.5 * input.shape->bounds().sizes().minCoeff();
+  const double voxel = input.grid().spacing.maxCoeff();
+  if (radius <= half && radius >= 2. * voxel) return;
+  std::ostringstream text;
+  text << "the default radius, 3 h^(1/2) = " << radius
+       << ", is for shapes of unit size; this one is " << 2. * half << " thick and its voxels "
+       << voxel << ": choose another by --radius";
+  run.warn(text.str());
+}
+
 void estimate_normals(Scene& scene, Run& run) {
   const Input& input = scene.input;
   DigitalSurface& surface = scene.surface;
@@ -72,7 +91,7 @@ void estimate_normals(Scene& scene, Run& run) {
       run.warn("the normals of '" + run.options.input + "' were replaced");
     }
     scene.polygons->normals = own_normals(scene.polygons->view());
-    run.report.normals = NormalsReport{name_of(Estimator::trivial), 0., 0, {}};
+    run.report.normals = NormalsReport{name_of(Estimator::trivial), 0., 0, 0, {}};
     return;
   }
   NormalReport report;
@@ -81,9 +100,8 @@ void estimate_normals(Scene& scene, Run& run) {
       IntegralInvariantOptions options;
       options.radius = ball_radius(run.options, input.shape != nullptr, input.grid().spacing);
       options.centre = run.options.centre;
-      // Shapes go on by themselves: their volume is wider than the surface.
-      const bool cut = input.border == Border::open && !input.shape;
-      options.beyond = cut ? Beyond::continued : Beyond::empty;
+      options.beyond = beyond_of(input);
+      check_default_radius(input, options.radius, run);
       report = std::visit(
           [&](const auto& volume) {
             return integral_invariant_normals(surface, volume, options, run.context);

@@ -30,6 +30,12 @@ struct Scene {
 /// are inside.
 Scene open_scene(Run& run);
 
+/// What balls find beyond the volume: emptiness, or more of the object where the border cuts it.
+Beyond beyond_of(const Input& input);
+
+/// Warns where the default radius, made for shapes of unit size, does not suit this shape.
+void check_default_radius(const Input& input, double radius, Run& run);
+
 /// Estimates normals as the options say and writes them to the surface; a mesh gets its own.
 void estimate_normals(Scene& scene, Run& run);
 

@@ -6,7 +6,8 @@ namespace dsc {
 namespace {
 
 using Word = BinaryVolume::Word;
-constexpr Index kWidest = 64;  // voxels of a ball along an axis
+constexpr Index kWidest = 64;        // voxels of a block along an axis
+constexpr double kMostBytes = 64e6;  // of masks: balls beyond radius 400 or so are scanned plainly
 
 /// The rows of one slice of a ball that leaves the grid, copied: 0 outside.
 class ClippedSlice {
@@ -140,6 +141,12 @@ BallMoments BallBlock::moments(const BinaryVolume& volume, const Index3& centre)
 
 std::unique_ptr<BallMasks> BallMasks::make(const BallRows& rows) {
   if (!detail::has_ball_kernel()) return nullptr;
+  double bytes = sizeof(Word);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto n = static_cast<double>(rows.reach(axis) + 1);
+    bytes *= axis == 0 ? n / kWidest + 1 : n;
+  }
+  if (bytes > kMostBytes) return nullptr;
   return std::unique_ptr<BallMasks>(new BallMasks(rows));
 }
 

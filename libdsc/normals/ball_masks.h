@@ -39,7 +39,7 @@ class BallBlock {
 
 class BallMasks {
  public:
-  /// Null where the machine has no kernel: the plain scan serves.
+  /// Null where the machine has no kernel or the masks are too many: the plain scan serves.
   static std::unique_ptr<BallMasks> make(const BallRows& rows);
 
   /// The same integers as BallScanner::plain. Precondition: `centre` has the rows' parity.

@@ -48,7 +48,7 @@ class BallScanner {
   BallMoments operator()(const Index3& centre) const;
 
   /// The same by scanning each row's runs: the oracle of the vector path, and the path for machines
-  /// without it.
+  /// without it and for balls too large for it.
   BallMoments plain(const Index3& centre) const;
 
   /// The same for a volume whose object goes on beyond it (continued_ball.h). `cut` tells whether

@@ -75,12 +75,13 @@ void curvature_by_balls(Scene& scene, Run& run) {
   CurvatureOptions options;
   options.radius = ball_radius(run.options, scene.input.shape != nullptr, volume.grid().spacing);
   options.form = run.options.form;
+  options.beyond = beyond_of(scene.input);
   CurvatureField field;
   {
     const Stopwatch watch(run.report.timings.solve);
     field = integral_invariant_curvatures(volume, scene.surface.surfels(), options, run.context);
   }
-  run.report.normals = NormalsReport{"ii", field.radius, field.fallbacks, {}};
+  run.report.normals = NormalsReport{"ii", field.radius, field.fallbacks, field.cut_faces, {}};
   if (field.fallbacks > 0) {
     run.warn(std::to_string(field.fallbacks) + " of " + std::to_string(scene.surface.face_count()) +
              " faces have no normal of their ball; their curvatures are those across the face");
