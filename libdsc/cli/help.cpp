@@ -14,7 +14,9 @@ std::string help_footer() {
       "\nResults: " + result_endings() +
       "\n"
       "With --labels and --between the faces also carry label_inner and label_outer: surfaces run\n"
-      "from the smaller label to the larger, 0 is always outside.\n\n"
+      "from the smaller label to the larger, 0 is always outside.\n"
+      "Points and functions are in world units: of medical images millimetres, LPS (x to the left,\n"
+      "y to the back, z to the head), and results come out there.\n\n"
       "Exit codes: 0 done, 2 wrong usage, 3 bad input or output, 4 too large, 5 a solver failed,\n"
       "130 interrupted.\n\n"
       "Start here:\n"

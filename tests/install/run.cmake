@@ -12,3 +12,10 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DWITH_CHOLMOD=${CHOLMOD})
 run(${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIG})
 run(${WORK}/build/consumer)
+
+# The installed program finds its reader of images, wherever the tree was installed.
+if(PROGRAM AND ITK)
+  file(WRITE ${WORK}/v.mha "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 2 2 2\n"
+    "ElementSpacing = 1 1 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678")
+  run(${WORK}/prefix/${PROGRAM} info ${WORK}/v.mha)
+endif()
