@@ -17,14 +17,21 @@ namespace {
 struct HalfBall {
   double volume = 0;
   Mat3 second = Mat3::Zero();  ///< about the centre
+  double r4 = 0, r6 = 0;       ///< r^4 and r^6, as the discs of the digital ball have them
 };
+
+/// Points of a ball beyond which it is as good as the smooth one, and too large to visit.
+constexpr double kManyPoints = 1e7;
 
 /// The lattice points of the ball along rows, all of them set: half of their sums.
 HalfBall half_ball(const Ball& ball, int axis, double voxel) {
   Index3 parity{0, 0, 0};
   parity[static_cast<std::size_t>(axis)] = 1;
   const BallRows rows(ball, parity);
-  double count = 0;
+  const Vec3 h = ball.spacing();
+  const double r = ball.radius();
+  const bool visit = 4.2 * r * r * r < kManyPoints * voxel;
+  double count = 0, lengths = 0, cubes = 0;
   Vec3 squares = Vec3::Zero();
   for (Index dz = -rows.reach(2); dz <= rows.reach(2); dz += 2) {
     for (Index dy = -rows.reach(1); dy <= rows.reach(1); dy += 2) {
@@ -35,19 +42,25 @@ HalfBall half_ball(const Ball& ball, int axis, double voxel) {
                  z = static_cast<double>(dz);
       count += n;
       squares += n * Vec3(x * (x + 2) / 3., y * y, z * z);
+      for (Index dx = -extent; visit && dx <= extent; dx += 2) {
+        const double d = 0.5 * h.cwiseProduct(Vec3(static_cast<double>(dx), y, z)).norm();
+        lengths += d;
+        cubes += d * d * d;
+      }
     }
   }
   HalfBall half;
   half.volume = 0.5 * voxel * count;
-  const Vec3 h = ball.spacing();
   half.second = (0.125 * voxel * squares.cwiseProduct(h).cwiseProduct(h)).asDiagonal();
+  half.r4 = visit ? voxel * lengths / std::numbers::pi : std::pow(r, 4);
+  half.r6 = visit ? 1.5 * voxel * cubes / std::numbers::pi : std::pow(r, 6);
   return half;
 }
 
 /// H, kappa_1, kappa_2.
-Vec3 curvatures(double volume, double e1, double e2, double r, CurvatureForm form) {
-  const double from_volume = volume / (std::numbers::pi * std::pow(r, 4));
-  const double scale = 1. / (std::numbers::pi * std::pow(r, 6));
+Vec3 curvatures(double volume, double e1, double e2, const HalfBall& flat, CurvatureForm form) {
+  const double from_volume = volume / (std::numbers::pi * flat.r4);
+  const double scale = 1. / (std::numbers::pi * flat.r6);
   if (form == CurvatureForm::plain) {
     return {-4. * from_volume, 6. * (e2 - 3. * e1) * scale, 6. * (e1 - 3. * e2) * scale};
   }
@@ -92,7 +105,7 @@ CurvatureField integral_invariant_curvatures(const BinaryVolume& volume,
         }
         const TangentEigen excess = tangent_eigen(v - flat.second, normal);
         const double volume_excess = voxel * static_cast<double>(balls[0].count) - flat.volume;
-        const Vec3 h = curvatures(volume_excess, excess.high, excess.low, r, options.form);
+        const Vec3 h = curvatures(volume_excess, excess.high, excess.low, flat, options.form);
         field.mean[i] = h[0];
         field.kappa_1[i] = h[1];
         field.kappa_2[i] = h[2];

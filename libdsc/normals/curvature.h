@@ -20,8 +20,12 @@
 /// On the lattice Vol_0 and V_0 are taken as half the sums over the whole digital ball. The lattice
 /// is symmetric about a surfel's centre, so every plane through the centre that meets no lattice
 /// point has exactly these, whatever its slope and the ball's radius: flat surfels have curvature
-/// exactly 0, and only the offset and the curvature of the surface count. (In the continuum, Vol_0
-/// = 2 pi r^3 / 3 and e_i = lambda_i - 2 pi r^5 / 15.)
+/// exactly 0, and only the offset and the curvature of the surface count. What a curvature adds is
+/// measured by the disc in which the tangent plane cuts the ball, pi r^4/2 and pi r^6/3 being its
+/// integrals of s^2 and s^4 (s the distance from the centre); the digital ball's discs have, on
+/// average over all slopes, the sums of |d|/2 and |d|^3/2 over its points. With these for r^4 and
+/// r^6, H at a radius of 6 or 8 voxels is 1 to 2 % off its limit, and 9 to 12 % without. (In the
+/// continuum, Vol_0 = 2 pi r^3 / 3 and e_i = lambda_i - 2 pi r^5 / 15.)
 ///
 /// The sums are exact integers, so the results have the same bits for any thread count. Where a
 /// border cuts the object and nothing is assumed beyond, the cut is felt as an edge; continued
