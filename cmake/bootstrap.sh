@@ -23,7 +23,7 @@ say() { printf '== %s\n' "$*"; }
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
 image_packages=(libinsighttoolkit5-dev)
-test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev "${image_packages[@]}" mricron-data)
+test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -43,7 +43,7 @@ install_missing() {
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
-    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS'
+    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5'
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
     return

@@ -19,6 +19,7 @@ using Mat4 = Eigen::Matrix4d;
 /// Tolerances, as fractions of the shape's size.
 constexpr double kOnSurface = 1e-12;
 constexpr double kOptimal = 1e-9;
+constexpr double kFarther = 1e-5;  // than the start, for Newton's answer to count
 
 /// One search for the point of {f = 0} closest to p.
 class Search {
@@ -40,6 +41,17 @@ class Search {
     return best;
   }
 
+  /// From `start` first; an answer from elsewhere counts only where it is as near.
+  ClosestPoint run_from(const Vec3& start) const {
+    ClosestPoint best{p_, false};
+    if (search_from(start, best)) return best;
+    const ClosestPoint other = run();
+    Vec3 q = start;
+    const bool as_near =
+        reach_surface(q) && (other.point - p_).norm() <= (q - p_).norm() + kFarther * size_;
+    return {other.point, other.converged && as_near};
+  }
+
  private:
   /// Newton from the projection of `start`; where it ends at a saddle or farther away, a slide
   /// along the surface towards p and Newton again. Whether that converged; `best` holds what was
@@ -51,7 +63,7 @@ class Search {
     if (best.point == p_) best.point = q;
     for (int round = 0; round < 8; ++round) {
       const ClosestPoint next = accept(newton(q));
-      if (next.converged && (next.point - p_).norm() <= reached + 1e-5 * size_) {
+      if (next.converged && (next.point - p_).norm() <= reached + kFarther * size_) {
         best = next;
         return true;
       }
@@ -185,6 +197,13 @@ void check_finite(const Vec3& p) {
 ClosestPoint closest_point_by_newton(const ImplicitShape& shape, const Vec3& p) {
   check_finite(p);
   return Search(shape, p).run();
+}
+
+ClosestPoint closest_point_by_newton_from(const ImplicitShape& shape, const Vec3& p,
+                                          const Vec3& start) {
+  check_finite(p);
+  check_finite(start);
+  return Search(shape, p).run_from(start);
 }
 
 ClosestPoint closest_point(const ImplicitShape& shape, const Vec3& p) {

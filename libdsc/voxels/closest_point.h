@@ -30,6 +30,12 @@ ClosestPoint closest_point(const ImplicitShape& shape, const Vec3& p);
 /// The same by Newton alone, also for shapes with a closed form. For tests and comparisons.
 ClosestPoint closest_point_by_newton(const ImplicitShape& shape, const Vec3& p);
 
+/// Newton from `start`, a point near the surface: the answer is no farther from p than `start`
+/// moved onto the surface, up to 1e-5 L. Where the start is near the closest point of another
+/// branch than the one Newton finds from p, this finds that one. \throws as above.
+ClosestPoint closest_point_by_newton_from(const ImplicitShape& shape, const Vec3& p,
+                                          const Vec3& start);
+
 struct ProjectedPoints {
   Eigen::Matrix3Xd points;  ///< column i is the closest point of point i
   Index failures = 0;       ///< points that did not converge; they hold the best point found

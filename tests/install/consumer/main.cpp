@@ -5,6 +5,10 @@
 #endif
 #include <libdsc/surface/digital_surface.h>
 #include <libdsc/surface/extract.h>
+#ifdef WITH_TRUTH
+#include <libdsc/truth/smooth_mesh.h>
+#include <libdsc/voxels/shapes.h>
+#endif
 
 #include <iostream>
 
@@ -34,6 +38,9 @@ int main() {
   A.insert(0, 0) = A.insert(1, 1) = 4.;
   const Eigen::VectorXd x = dsc::make_cholmod_solver(A)->solve(Eigen::Vector2d(4., 8.)).x;
   if (x != Eigen::Vector2d(1., 2.)) return 1;
+#endif
+#ifdef WITH_TRUTH
+  if (dsc::truth::smooth_mesh(dsc::Torus(), {0.2}).counts.euler != 0) return 1;
 #endif
   return right ? 0 : 1;
 }

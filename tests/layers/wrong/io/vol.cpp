@@ -2,3 +2,4 @@
 #include <cstdio>
 #include <zlib.h>
 #include "libdsc/cli/options.h"  // wrong
+#include "libdsc/truth/mesh.h"  // wrong

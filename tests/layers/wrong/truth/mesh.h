@@ -1,0 +1,2 @@
+#include <CGAL/Surface_mesh.h>  // wrong
+#include <vector>
