@@ -78,6 +78,11 @@ TEST(Curvature, OfTheSphereInThePlainFormIsUnbiasedAndScatters) {
     const double r = shape_radius(h);
     const CurvatureField field = of_sphere(h, r, CurvatureForm::plain);
     EXPECT_NEAR(field.mean.mean(), 1, 0.02) << h;
+    // The lens' moments give 1 - r^2/16 for the principal ones; their difference is that of the
+    // centred form.
+    EXPECT_NEAR(0.5 * (field.kappa_1 + field.kappa_2).mean(), 1 - r * r / 16, 0.02) << h;
+    const CurvatureField centred = of_sphere(h, r);
+    EXPECT_LT((field.kappa_2 - field.kappa_1 - centred.kappa_2 + centred.kappa_1).norm(), 1e-9);
     EXPECT_LT(mean_error(field.mean, 1), h / (r * r)) << h;
     EXPECT_GT(mean_error(field.mean, 1), 0.3 * h / (r * r)) << h;
   }
