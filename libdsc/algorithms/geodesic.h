@@ -31,7 +31,7 @@ enum class HeatMethod {
 /// What heat does at the boundary of the surface; the same thing where there is none.
 enum class HeatBoundary {
   neumann,  ///< is reflected: distances bend to meet the boundary at right angles
-  mixed,    ///< the mean of reflected and absorbed, which cancels most of that bend
+  mixed,    ///< the mean of reflected and absorbed, which cancels most of that bend; the default
 };
 
 struct GeodesicOptions {
@@ -39,7 +39,7 @@ struct GeodesicOptions {
   /// Diffusion time t in length squared; 0: the square of the largest spacing of a digital surface,
   /// of the mean edge length of another.
   double time = 0;
-  HeatBoundary boundary = HeatBoundary::neumann;
+  HeatBoundary boundary = HeatBoundary::mixed;
   HeatMethod method = HeatMethod::automatic;
   /// The solver of Poisson's equation; its tolerance is that of the distance's gradient.
   SolverOptions poisson{SolverMethod::automatic, 1e-6};

@@ -13,6 +13,7 @@ std::string help_footer() {
   text +=
       "\nResults: " + result_endings() +
       "\n"
+      "In .vtp the vectors are the arrays normal (nx, ny, nz) and gradient (gx, gy, gz).\n"
       "With --labels and --between the faces also carry label_inner and label_outer: surfaces run\n"
       "from the smaller label to the larger, 0 is always outside.\n"
       "Points and functions are in world units: of medical images millimetres, LPS (x to the left,\n"

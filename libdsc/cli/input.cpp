@@ -1,5 +1,6 @@
 #include "libdsc/cli/input.h"
 
+#include "libdsc/base/error.h"
 #include "libdsc/cli/mesh_input.h"
 #include "libdsc/io/read_binary.h"
 #include "libdsc/io/read_labels.h"
@@ -82,12 +83,16 @@ Input digitized(Run& run) {
   input.shape = make_shape(options.input.substr(std::string("shape:").size()));
   const bool cut = !input.shape->closed();
   input.border = options.border.value_or(cut ? Border::open : Border::closed);
-  if (cut && input.border == Border::open && uses_balls(options)) {
-    const WidenedShape wide(*input.shape, ball_radius(options, true, spacing));
-    input.voxels = digitize(wide, spacing, run.context);
-    input.part = part_within(digitization_grid(*input.shape, spacing), input.grid());
-  } else {
-    input.voxels = digitize(*input.shape, spacing, run.context);
+  try {
+    if (cut && input.border == Border::open && uses_balls(options)) {
+      const WidenedShape wide(*input.shape, ball_radius(options, true, spacing));
+      input.voxels = digitize(wide, spacing, run.context);
+      input.part = part_within(digitization_grid(*input.shape, spacing), input.grid());
+    } else {
+      input.voxels = digitize(*input.shape, spacing, run.context);
+    }
+  } catch (const LimitError& error) {
+    throw LimitError("--gridstep: " + std::string(error.what()));
   }
   return input;
 }

@@ -1,23 +1,30 @@
 #include "libdsc/cli/option_checks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/cli/file_checks.h"
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
-#include "libdsc/io/results.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 
 namespace dsc::cli {
 namespace {
 
-/// A mistyped folder should not come out after the work is done. \throws OutputError.
-void check_folder(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw OutputError("'" + path + "': the folder '" + folder.string() +
-                      "' does not exist; create it first");
+/// An option that could change nothing was meant to: it is named with the one that makes it idle.
+void check_have_effect(const Options& o) {
+  const bool balls = o.estimator == Estimator::integral_invariant;
+  for (const char* option : {"--estimator", "--radius", "--centre"}) {
+    if (!o.given(option)) continue;
+    if (!o.projected) {
+      throw UsageError(std::string(option) +
+                       " has no effect with --calculus naive, which uses no estimated normals; "
+                       "leave one of them out");
+    }
+    if (!balls && option != std::string("--estimator")) {
+      throw UsageError(std::string(option) + " describes the ball of --estimator ii; --estimator " +
+                       name_of(o.estimator) + " has none, leave one of them out");
+    }
   }
 }
 
@@ -80,13 +87,8 @@ void check_options(const Options& o) {
   if (o.threshold && !o.labels.empty()) {
     throw UsageError("--threshold and --label both say which voxels are inside; give one of them");
   }
-  std::vector<std::string> files = o.outputs;
-  if (!o.report.empty()) files.push_back(o.report);
-  std::sort(files.begin(), files.end());
-  const auto twice = std::adjacent_find(files.begin(), files.end());
-  if (twice != files.end()) throw UsageError("'" + *twice + "' is to be written twice");
-  for (const std::string& path : o.outputs) check_result_path(path);
-  check_folder(o.report);
+  check_have_effect(o);
+  check_files(o);
 }
 
 }  // namespace dsc::cli

@@ -6,8 +6,8 @@
 
 namespace dsc::cli {
 
-/// \throws UsageError naming the options and what to do; OutputError where a file's folder is
-/// missing.
+/// \throws UsageError naming the options and what to do; OutputError where a file cannot be
+/// written.
 void check_options(const Options& options);
 
 }  // namespace dsc::cli

@@ -176,6 +176,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         chosen.empty() ? "dsc --help" : "dsc " + chosen.front()->get_name() + " --help";
     throw UsageError(std::string(error.what()) + "; see " + help);
   }
+  for (const CLI::Option* option : app.get_subcommands().front()->get_options()) {
+    if (option->count() > 0) line.options.typed.insert(option->get_name());
+  }
   check_options(line.options);
   return line;
 }

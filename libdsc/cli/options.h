@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,9 @@ struct Options {
   std::string report;
   int threads = 0;
   bool quiet = false;
+
+  std::set<std::string> typed;  ///< the options that stand on the command line, as "--radius"
+  bool given(const std::string& option) const { return typed.count(option) > 0; }
 };
 
 /// The command line, or the text that it asks for (--help, --version) instead.

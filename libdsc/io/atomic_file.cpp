@@ -148,4 +148,26 @@ void AtomicFile::commit() {
   }
 }
 
+void check_writable(const std::string& path) {
+  namespace fs = std::filesystem;
+  const auto refuse = [&](const std::string& why) { throw OutputError("'" + path + "'" + why); };
+  const auto reason = [] { return ": " + std::system_category().message(errno); };
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  if (fs::is_directory(path, error)) refuse(" is a folder; name a file in it");
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    refuse(": the folder '" + folder.string() + "' does not exist; create it first");
+  }
+  if (::access(path.c_str(), F_OK) == 0) {
+    if (::access(path.c_str(), W_OK) != 0) refuse(" cannot be overwritten" + reason());
+    if (!fs::is_regular_file(path, error)) return;  // written directly
+  }
+  // The temporary comes beside the target, where links lead to.
+  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (!error && ::access(target.parent_path().c_str(), W_OK | X_OK) != 0) {
+    refuse(" cannot be written: no file can be created in '" + target.parent_path().string() + "'" +
+           reason());
+  }
+}
+
 }  // namespace dsc

@@ -51,4 +51,8 @@ class AtomicFile {
   std::vector<char> buffer_;
 };
 
+/// Refuses, before any work is done, a path that an AtomicFile could not write to as things stand.
+/// It creates nothing. \throws OutputError naming the file and the remedy.
+void check_writable(const std::string& path);
+
 }  // namespace dsc

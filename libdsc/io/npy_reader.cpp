@@ -1,8 +1,8 @@
 // .npy: see volume_source.h for what is read, and NumPy's NEP 1 for the format: the magic bytes
 // \x93NUMPY, a version (two bytes), the length of the header (2 bytes little-endian in version 1, 4
 // later), a Python dictionary of descr, fortran_order and shape, then the values.
-#include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
+#include "libdsc/io/data_size.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
@@ -186,12 +186,7 @@ class NpySource final : public VolumeSource {
     for (const Index size : grid_.size) {
       if (size == 0) file_.fail(offset, "the array is empty");
     }
-    Index bytes = 0;
-    try {
-      bytes = checked_product(grid_.voxels(), type_.bytes, "bytes");
-    } catch (const LimitError& e) {
-      file_.fail(offset, std::string("the shape is too large: ") + e.what());
-    }
+    const Index bytes = data_bytes(file_, offset, grid_, type_.bytes);
     const Index left = file_.remaining();
     if (left != bytes) {
       file_.fail(file_.size(), "the header promises " + std::to_string(bytes) +

@@ -1,6 +1,6 @@
 // Raw files: the values and nothing else; see RawLayout.
-#include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
+#include "libdsc/io/data_size.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <array>
@@ -20,7 +20,7 @@ class RawSource final : public VolumeSource {
       if (size <= 0) throw UsageError("'" + path + "': a raw volume needs three positive sizes");
     }
     if (layout.offset < 0) throw UsageError("'" + path + "': the offset must not be negative");
-    const Index bytes = checked_product(grid_.voxels(), type_.bytes, "bytes");
+    const Index bytes = data_bytes(file_, 0, grid_, type_.bytes);
     const Index there = file_.size() - layout.offset;
     if (there != bytes) {
       const std::string after =

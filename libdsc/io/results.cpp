@@ -149,15 +149,7 @@ std::string result_endings() {
 
 void check_result_path(const std::string& path) {
   format_of(path);
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw OutputError("'" + path + "' is a folder; name a file in it");
-  }
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
-    throw OutputError("'" + path + "': the folder '" + folder.string() +
-                      "' does not exist; create it first");
-  }
+  check_writable(path);
 }
 
 std::vector<std::string> write_result(const std::string& path, const Result& result,

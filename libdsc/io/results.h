@@ -15,8 +15,9 @@
 ///
 /// Vertices are vertex ids: the junction vertices of a digital surface stay shared, however its
 /// halfedge mesh had to split them. Every double is written in full but in .stl: text uses the
-/// shortest form that reads back to the same bits. An infinite value (a distance that no source
-/// reaches) is IEEE infinity in .ply and .vtp and `inf` in .csv; NaN is refused.
+/// shortest form that reads back to the same bits. In .vtp the components of a vector carry its
+/// parts' names. An infinite value (a distance that no source reaches) is IEEE infinity in .ply and
+/// .vtp and `inf` in .csv; NaN is refused.
 ///
 /// A .csv file holds one kind of row. It is that of the first field: per vertex with the vertex's
 /// position, or per face with the mean of the face's corners. Fields of the other kind are left
@@ -63,8 +64,8 @@ struct Result {
 std::string result_endings();
 
 /// Refuses a path that write_result() could not serve, before anything is computed.
-/// \throws UsageError where the ending is unknown, naming the ones known; OutputError where the
-/// folder does not exist or the path is a folder.
+/// \throws UsageError where the ending is unknown, naming the ones known; OutputError as
+/// check_writable() of atomic_file.h.
 void check_result_path(const std::string& path);
 
 /// Writes `result` in the form that the ending of `path` names (upper or lower case).

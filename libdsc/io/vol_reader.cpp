@@ -1,6 +1,6 @@
 // .vol and .longvol: see volume_source.h for the format.
-#include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
+#include "libdsc/io/data_size.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <zlib.h>
@@ -245,11 +245,7 @@ class VolSource final : public VolumeSource {
   }
 
   void check_length() {
-    try {
-      bytes_ = checked_product(grid_.voxels(), type_.bytes, "bytes");
-    } catch (const LimitError& e) {
-      file_.fail(0, std::string("the sizes X, Y, Z are too large: ") + e.what());
-    }
+    bytes_ = data_bytes(file_, 0, grid_, type_.bytes);
     const Index left = file_.remaining();
     if (!compressed_ && left != bytes_) {
       file_.fail(file_.size(), "the header promises " + std::to_string(bytes_) +

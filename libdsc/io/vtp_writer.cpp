@@ -62,10 +62,15 @@ struct Block {
   Index base64_bytes() const { return (bytes() + 8 + 2) / 3 * 4; }
 };
 
-Block doubles(const std::string& name, std::size_t components, std::span<const double> values) {
+/// An array of parts.size() components; several are named, as ParaView shows them.
+Block doubles(const std::string& name, const std::vector<std::string>& parts,
+              std::span<const double> values) {
   Block block;
   block.markup = "type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                 std::to_string(components) + "\"";
+                 std::to_string(parts.size()) + "\"";
+  for (std::size_t i = 0; parts.size() > 1 && i < parts.size(); ++i) {
+    block.markup += " ComponentName" + std::to_string(i) + "=\"" + parts[i] + "\"";
+  }
   block.elements = static_cast<Index>(values.size());
   block.element_bytes = sizeof(double);
   block.encode = [values](Index first, Index last, std::string& out) {
@@ -129,7 +134,7 @@ void write_vtp(AtomicFile& file, const Result& result, const Context& context) {
   };
   const auto add_fields = [&](FieldOn on) {
     for (const Field& field : result.fields) {
-      if (field.on == on) add(doubles(field.name, field.parts.size(), field.values));
+      if (field.on == on) add(doubles(field.name, field.parts, field.values));
     }
   };
 
@@ -145,7 +150,8 @@ void write_vtp(AtomicFile& file, const Result& result, const Context& context) {
   xml += "      </PointData>\n      <CellData>\n";
   add_fields(FieldOn::face);
   xml += "      </CellData>\n      <Points>\n";
-  add(doubles("Points", 3, {mesh.positions.data, static_cast<std::size_t>(3 * mesh.vertices())}));
+  add(doubles("Points", {"x", "y", "z"},
+              {mesh.positions.data, static_cast<std::size_t>(3 * mesh.vertices())}));
   xml += "      </Points>\n      <Polys>\n";
   add(integers("connectivity", narrow, mesh.corner_count(),
                [&](Index c) { return mesh.corners[static_cast<std::size_t>(c)]; }));

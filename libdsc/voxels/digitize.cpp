@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 namespace dsc {
@@ -15,6 +16,14 @@ struct LatticeRange {
   Index last[3];
   Index margin;
 };
+
+LimitError too_fine(const ImplicitShape& shape, const Vec3& spacing, const std::string& into) {
+  std::ostringstream text;
+  text << "digitization: gridstep " << spacing[0];
+  if (!(spacing.array() == spacing[0]).all()) text << "," << spacing[1] << "," << spacing[2];
+  text << " cuts " << shape.name() << " into " << into << "; use a larger one";
+  return LimitError(text.str());
+}
 
 LatticeRange lattice_range(const ImplicitShape& shape, const Vec3& spacing) {
   constexpr double kMostVoxels = 2147483648.;  // 2^31: positions h i stay exact far beyond
@@ -31,8 +40,7 @@ LatticeRange lattice_range(const ImplicitShape& shape, const Vec3& spacing) {
     const double last = std::floor(box.max()[axis] / h + 1e-9);
     if (!(std::abs(first) < kMostVoxels && std::abs(last) < kMostVoxels &&
           last - first < kMostVoxels)) {
-      throw LimitError("digitization: gridstep " + std::to_string(h) + " cuts " + shape.name() +
-                       " into more than 2^31 voxels along an axis; use a larger one");
+      throw too_fine(shape, spacing, "more than 2^31 voxels along an axis");
     }
     range.first[axis] = static_cast<Index>(first);
     range.last[axis] = static_cast<Index>(last);
@@ -54,12 +62,18 @@ Grid grid_of(const LatticeRange& range, const Vec3& spacing) {
 }  // namespace
 
 Grid digitization_grid(const ImplicitShape& shape, const Vec3& spacing) {
-  return grid_of(lattice_range(shape, spacing), spacing);
+  const Grid grid = grid_of(lattice_range(shape, spacing), spacing);
+  try {
+    check_allocation(grid.voxels() / 8, "");
+  } catch (const LimitError&) {
+    throw too_fine(shape, spacing, grid.text() + ", more than memory holds");
+  }
+  return grid;
 }
 
 BinaryVolume digitize(const ImplicitShape& shape, const Vec3& spacing, const Context& context) {
   const LatticeRange range = lattice_range(shape, spacing);
-  const Grid grid = grid_of(range, spacing);
+  const Grid grid = digitization_grid(shape, spacing);
   BinaryVolume volume(grid);
   const Index margin = range.margin;
   const Index x_end = grid.size[0] - margin;

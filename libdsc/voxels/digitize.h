@@ -16,7 +16,8 @@
 namespace dsc {
 
 /// The grid that digitize() fills. \throws UsageError where a spacing is not positive and finite,
-/// LimitError where an axis would have more than 2^31 voxels.
+/// LimitError where an axis would have more than 2^31 voxels or memory could not hold one bit for
+/// each.
 Grid digitization_grid(const ImplicitShape& shape, const Vec3& spacing);
 
 /// Parallel over z; the same voxels for any thread count. \throws as digitization_grid, LimitError

@@ -101,6 +101,23 @@ TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
                  {"--threads"});
 }
 
+TEST(CommandLine, AnOptionThatCouldChangeNothingIsRefused) {
+  const auto refused = [](std::vector<std::string> more, const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"gradient", "shape:sphere", "--gridstep",
+                                    "0.2",      "--function",   "x"};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_refused(run_dsc(all), 2, words);
+  };
+  for (const std::string estimator : {"trivial", "analytic"}) {
+    refused({"--estimator", estimator, "--radius", "0.5"}, {"--radius", "--estimator", estimator});
+    refused({"--centre", "pair", "--estimator", estimator}, {"--centre", "--estimator", estimator});
+    refused({"--centre", "surfel", "--estimator", estimator}, {"--centre"});
+  }
+  refused({"--calculus", "naive", "--radius", "0.5"}, {"--radius", "--calculus naive"});
+  refused({"--calculus", "naive", "--centre", "pair"}, {"--centre", "--calculus naive"});
+  refused({"--calculus", "naive", "--estimator", "ii"}, {"--estimator", "--calculus naive"});
+}
+
 TEST(CommandLine, AnUnknownEndingIsRefusedBeforeTheInputIsRead) {
   expect_refused(run_dsc({"surface", "missing.vol", "-o", "a.xyz"}), 2,
                  {"a.xyz", ".ply", ".vtp", ".csv"});
@@ -116,7 +133,16 @@ TEST(CommandLine, AnInputThatCannotBeReadIsExitCodeThree) {
 }
 
 TEST(CommandLine, AGridTooFineForMemoryIsExitCodeFour) {
-  expect_refused(run_dsc({"info", "shape:sphere", "--gridstep", "1e-9"}), 4, {});
+  for (const std::string h : {"1e-4", "1e-7", "1e-9"}) {  // memory, 64 bits, the longest axis
+    expect_refused(run_dsc({"info", "shape:sphere", "--gridstep", h}), 4, {"--gridstep", "larger"});
+  }
+  expect_refused(run_dsc({"normals", "shape:plane", "--gridstep", "1e-6"}), 4, {"--gridstep"});
+}
+
+TEST(CommandLine, AHeaderBeyondAllLimitsIsExitCodeFour) {
+  const Folder folder;
+  write_file(folder / "huge.vol", "X: 4000000000\nY: 4000000000\nZ: 4000000000\nVersion: 2\n.\n");
+  expect_refused(run_dsc({"info", folder / "huge.vol"}), 4, {"huge.vol", "4000000000"});
 }
 
 }  // namespace

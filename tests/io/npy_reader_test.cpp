@@ -110,8 +110,6 @@ TEST(NpyReader, DamagedFilesAreRefusedWithThePlace) {
   expect(npy_text(1, dictionary("|u1", false, "(2, 3)")) + six, "2 dimensions");
   expect(npy_text(1, dictionary("|u1", false, "(1, 0, 3)")), "empty");
   expect(npy_text(1, dictionary("|u1", false, "(1, -2, 3)")) + six, "64-bit integers");
-  expect(npy_text(1, dictionary("|u1", false, "(4000000000, 4000000000, 4000000000)")),
-         "too large");
   expect(npy_text(1, "{'descr': '|u1', 'shape': (1, 2, 3)}") + six, "fortran_order");
   expect(npy_text(1, "{'descr': [('a', '<i4')], 'fortran_order': False, 'shape': (1, 2, 3)}") + six,
          "records");
@@ -119,6 +117,15 @@ TEST(NpyReader, DamagedFilesAreRefusedWithThePlace) {
   expect(npy_text(1, "{'descr': '|u1") + six, "no end");
   expect(npy_text(1, "{'colour': 'red'}") + six, "unknown");
   expect(npy_text(1, good + "x") + six, "after the header");
+}
+
+TEST(NpyReader, ShapesBeyondCountingOrMemoryAreOutOfLimits) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.npy";
+  for (const char* shape : {"(4000000000, 4000000000, 4000000000)", "(1000000, 1000000, 100000)"}) {
+    write_all(path, npy_text(1, dictionary("<f8", false, shape)) + "some data");
+    expect_error<LimitError>([&] { (void)open_volume(path); }, {path, "byte", "too large"});
+  }
 }
 
 }  // namespace

@@ -247,6 +247,15 @@ std::vector<Index> VtpFile::integers(const std::string& section, const std::stri
   return {narrow.begin(), narrow.end()};
 }
 
+std::vector<std::string> VtpFile::parts(const std::string& section, const std::string& name) const {
+  std::vector<std::string> parts;
+  const auto& attributes = array(section, name).attributes;
+  for (int i = 0; attributes.count("ComponentName" + std::to_string(i)) > 0; ++i) {
+    parts.push_back(attributes.at("ComponentName" + std::to_string(i)));
+  }
+  return parts;
+}
+
 VtpFile read_vtp(const std::string& path) {
   const XmlElement root = read_xml(read_text(path));
   require(root.name == "VTKFile" && root.attributes.at("type") == "PolyData" &&

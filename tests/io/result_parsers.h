@@ -42,6 +42,8 @@ struct VtpFile {
   std::vector<double> doubles(const std::string& section, const std::string& name,
                               int components) const;
   std::vector<Index> integers(const std::string& section, const std::string& name) const;
+  /// The names of an array's components; none where it names none.
+  std::vector<std::string> parts(const std::string& section, const std::string& name) const;
 
  private:
   const XmlElement& array(const std::string& section, const std::string& name) const;

@@ -135,6 +135,8 @@ TEST_F(ResultFiles, VtpIsWellFormedAndHoldsEveryBit) {
       EXPECT_EQ(bits_of(vtp.doubles("PointData", "distance", 1)), bits_of(sample.distance));
       EXPECT_EQ(bits_of(vtp.doubles("CellData", "normal", 3)), bits_of(sample.normals));
       EXPECT_EQ(bits_of(vtp.doubles("CellData", "heat", 1)), bits_of(sample.heat));
+      EXPECT_EQ(vtp.parts("CellData", "normal"), (std::vector<std::string>{"nx", "ny", "nz"}));
+      EXPECT_EQ(vtp.parts("CellData", "heat").size(), 0U);
       EXPECT_EQ(vtp.integers("Polys", "connectivity"),
                 std::vector<Index>(sample.corners.begin(), sample.corners.end()));
       std::vector<Index> ends;

@@ -97,13 +97,24 @@ TEST(VolReader, DamagedHeadersAreRefusedWithThePlace) {
   expect(vol_text("X: 1\nY: -3\nZ: 1\n", "2"), {"byte 5", "positive"});
   expect(vol_text("X: 1\nY: 2a\nZ: 1\n", "2"), {"byte 5", "'2a'"});
   expect(vol_text("X: 99999999999999999999\nY: 1\nZ: 1\n", "2"), {"byte 0", "64-bit"});
-  expect(vol_text("X: 4000000000\nY: 4000000000\nZ: 4000000000\n", "2"), {"too large"});
-  expect(vol_text("X: 4000000000\nY: 4000000000\nZ: 4000000000\n", "3"), {"too large"});
   expect(vol_text("X: 1\nY: 1\nZ: 1\n", "4") + "\1", {"Version 4", "2 (raw) and 3 (zlib)"});
   expect("X: 1\nY: 1\nZ: 1\n.\n\1", {"Version", "version 2 or 3"});
   expect("X: 1\nY: 1\nZ: 1\nVoxel-Size: 2\nVersion: 2\n.\n\1", {"Voxel-Size", "longvol"});
   expect(vol_text("X: 1\nY: 1\nZ: 1\nSpacing-X: nan\n", "2") + "\1", {"Spacing-X"});
   expect(vol_text("X: 1\nY: 1\nZ: 1\nSpacing-X: 0\n", "2") + "\1", {"Spacing-X"});
+}
+
+TEST(VolReader, SizesBeyondCountingOrMemoryAreOutOfLimits) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vol";
+  const std::string uncountable = "X: 4000000000\nY: 4000000000\nZ: 4000000000\n";
+  const std::string petabytes = "X: 1000000\nY: 1000000\nZ: 100000\n";
+  for (const std::string version : {"2", "3"}) {
+    for (const std::string& sizes : {uncountable, petabytes}) {
+      write_all(path, vol_text(sizes, version) + "some data");
+      expect_error<LimitError>([&] { (void)open_volume(path); }, {path, "byte 0", "too large"});
+    }
+  }
 }
 
 TEST(VolReader, DataOfAnotherLengthIsRefused) {
@@ -123,8 +134,8 @@ TEST(VolReader, DataOfAnotherLengthIsRefused) {
   expect(vol_text(10, 20, 30, 3) + packed + "x", "goes on after the end");
   expect(vol_text(10, 20, 31, 3) + packed, "200 bytes before the volume is full");
   expect(vol_text(10, 20, 29, 3) + packed, "goes on after the volume is full");
-  // Terabytes in a kilobyte: refused before anything is allocated.
-  expect(vol_text(100000, 100000, 100, 3) + packed, "more than the file's");
+  // Gigabytes in a kilobyte: refused before anything is allocated.
+  expect(vol_text(10000, 10000, 100, 3) + packed, "more than the file's");
   std::string damaged = packed;
   damaged[packed.size() - 2] = static_cast<char>(damaged[packed.size() - 2] ^ 1);  // the checksum
   expect(vol_text(10, 20, 30, 3) + damaged, "damaged");

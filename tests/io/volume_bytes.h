@@ -56,18 +56,23 @@ inline std::string dictionary(const std::string& descr, bool fortran, const std:
          ", 'shape': " + shape + ", }   \n";
 }
 
-/// Expects that `call` throws an InputError whose message has all of `parts`.
-template <class Call>
-void expect_input_error(const Call& call, const std::vector<std::string>& parts) {
+/// Expects that `call` throws an Expected whose message has all of `parts`.
+template <class Expected, class Call>
+void expect_error(const Call& call, const std::vector<std::string>& parts) {
   try {
     call();
     ADD_FAILURE() << "nothing was thrown";
-  } catch (const InputError& e) {
+  } catch (const Expected& e) {
     for (const std::string& part : parts) {
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos)
           << "'" << part << "' is not in: " << e.what();
     }
   }
+}
+
+template <class Call>
+void expect_input_error(const Call& call, const std::vector<std::string>& parts) {
+  expect_error<InputError>(call, parts);
 }
 
 }  // namespace dsc

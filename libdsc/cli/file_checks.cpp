@@ -1,0 +1,65 @@
+#include "libdsc/cli/file_checks.h"
+
+#include "libdsc/base/error.h"
+#include "libdsc/io/atomic_file.h"
+#include "libdsc/io/results.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dsc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where writing to `path` ends up: absolute, links resolved as far as files exist.
+fs::path place_of(const std::string& path) {
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? fs::path(path) : place;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || place_of(a) == place_of(b);
+}
+
+/// Pipes, terminals and /dev/null take any number of results.
+bool is_stream(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+void check_spares_input(const std::string& path, const std::string& input) {
+  if (same_file(path, input)) {
+    throw UsageError("'" + path + "' is the input '" + input +
+                     "' and would be overwritten; write to another file");
+  }
+  std::error_code error;
+  if (fs::is_directory(input, error) && fs::is_regular_file(path, error) &&
+      fs::equivalent(place_of(path).parent_path(), input, error)) {
+    throw UsageError("'" + path + "' is a file of the input folder '" + input +
+                     "' and would be overwritten; write to another folder");
+  }
+}
+
+}  // namespace
+
+void check_files(const Options& o) {
+  std::vector<std::string> files = o.outputs;
+  if (!o.report.empty()) files.push_back(o.report);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (is_stream(files[i])) continue;
+    if (o.input.rfind("shape:", 0) != 0) check_spares_input(files[i], o.input);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_file(files[i], files[j])) continue;
+      throw UsageError("'" + files[i] + "' is to be written twice" +
+                       (files[i] == files[j] ? "" : ", as '" + files[j] + "' too"));
+    }
+  }
+  for (const std::string& path : o.outputs) check_result_path(path);
+  if (!o.report.empty()) check_writable(o.report);
+}
+
+}  // namespace dsc::cli
