@@ -58,6 +58,27 @@ Vec3 gradient_of(Expression::Evaluator& f, const Vec3& p) {
   return g;
 }
 
+/// make_value() makes a value(point of the shape, its normal) for one chunk.
+template <class MakeValue>
+KnownVectors at_closest_points(const ImplicitShape& shape, Vec3View points, const Context& context,
+                               const MakeValue& make_value) {
+  KnownVectors result;
+  result.vectors = Eigen::Matrix3Xd::Zero(3, points.size);
+  result.known.assign(static_cast<std::size_t>(points.size), 0);
+  parallel_for(context, points.size, kGrain, [&](Index first, Index last) {
+    auto value = make_value();
+    for (Index i = first; i < last; ++i) {
+      const ClosestPoint closest = closest_point(shape, points[i]);
+      if (!closest.converged) continue;
+      const Vec3 n = shape.gradient(closest.point).stableNormalized();
+      if (!(n.squaredNorm() > 0.5)) continue;
+      result.vectors.col(i) = value(closest.point, n);
+      result.known[static_cast<std::size_t>(i)] = 1;
+    }
+  });
+  return result;
+}
+
 }  // namespace
 
 std::optional<Eigen::VectorXd> known_distances(const ImplicitShape& shape, Vec3View points,
@@ -76,20 +97,19 @@ std::optional<Eigen::VectorXd> known_distances(const ImplicitShape& shape, Vec3V
   return std::nullopt;
 }
 
-KnownGradients known_gradients(const ImplicitShape& shape, const Expression& f, Vec3View points,
-                               const Context& context) {
-  ProjectedPoints projected = project_points(shape, points, context);
-  KnownGradients known{std::move(projected.points), projected.failures};
-  parallel_for(context, points.size, kGrain, [&](Index first, Index last) {
-    Expression::Evaluator evaluate(f);
-    for (Index i = first; i < last; ++i) {
-      const Vec3 p = known.gradients.col(i);
-      const Vec3 n = shape.gradient(p).stableNormalized();
+KnownVectors known_gradients(const ImplicitShape& shape, const Expression& f, Vec3View points,
+                             const Context& context) {
+  return at_closest_points(shape, points, context, [&f] {
+    return [evaluate = Expression::Evaluator(f)](const Vec3& p, const Vec3& n) mutable -> Vec3 {
       const Vec3 g = gradient_of(evaluate, p);
-      known.gradients.col(i) = g - n * n.dot(g);
-    }
+      return g - n * n.dot(g);
+    };
   });
-  return known;
+}
+
+KnownVectors known_normals(const ImplicitShape& shape, Vec3View points, const Context& context) {
+  return at_closest_points(shape, points, context,
+                           [] { return [](const Vec3&, const Vec3& n) { return n; }; });
 }
 
 }  // namespace dsc::cli

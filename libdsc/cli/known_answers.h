@@ -7,7 +7,7 @@
 #include "libdsc/voxels/implicit_shape.h"
 
 #include <optional>
-#include <span>
+#include <vector>
 
 namespace dsc::cli {
 
@@ -18,13 +18,19 @@ std::optional<Eigen::VectorXd> known_distances(const ImplicitShape& shape, Vec3V
                                                const Eigen::Matrix3Xd& sources,
                                                const Context& context);
 
+/// One vector a point; zero, and not known, where no closest point of the shape was found or the
+/// shape has no normal there.
+struct KnownVectors {
+  Eigen::Matrix3Xd vectors;
+  std::vector<char> known;
+};
+
 /// The gradient of f restricted to the surface, at the closest point of each of `points`: the
 /// tangential part of f's gradient there.
-struct KnownGradients {
-  Eigen::Matrix3Xd gradients;
-  Index failures = 0;  ///< points whose closest point was not found
-};
-KnownGradients known_gradients(const ImplicitShape& shape, const Expression& f, Vec3View points,
-                               const Context& context);
+KnownVectors known_gradients(const ImplicitShape& shape, const Expression& f, Vec3View points,
+                             const Context& context);
+
+/// The outward unit normal of the shape at the closest point of each of `points`.
+KnownVectors known_normals(const ImplicitShape& shape, Vec3View points, const Context& context);
 
 }  // namespace dsc::cli

@@ -16,6 +16,10 @@ void check_have_effect(const Options& o) {
   const bool balls = o.estimator == Estimator::integral_invariant;
   for (const char* option : {"--estimator", "--radius", "--centre"}) {
     if (!o.given(option)) continue;
+    if (o.command == Command::surface && !o.regularise) {
+      throw UsageError(std::string(option) +
+                       " has no effect without --regularise: give both or leave it out");
+    }
     if (!o.projected) {
       throw UsageError(std::string(option) +
                        " has no effect with --calculus naive, which uses no estimated normals; "

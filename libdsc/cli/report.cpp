@@ -91,8 +91,8 @@ Json json_of(const Timings& t) {
   return {{"read", number(t.read)},         {"extract", number(t.extract)},
           {"normals", number(t.normals)},   {"smooth", number(t.smooth)},
           {"assemble", number(t.assemble)}, {"factorize", number(t.factorize)},
-          {"solve", number(t.solve)},       {"write", number(t.write)},
-          {"total", number(t.total)}};
+          {"solve", number(t.solve)},       {"check", number(t.check)},
+          {"write", number(t.write)},       {"total", number(t.total)}};
 }
 
 Json json_of(const std::string& name, const Statistics& s) {
@@ -101,8 +101,11 @@ Json json_of(const std::string& name, const Statistics& s) {
 }
 
 Json json_of(const std::string& name, const ErrorNorms& e) {
-  return {
-      {"quantity", name}, {"mean", number(e.mean)}, {"max", number(e.max)}, {"l2", number(e.l2)}};
+  return {{"quantity", name},
+          {"mean", number(e.mean)},
+          {"max", number(e.max)},
+          {"l2", number(e.l2)},
+          {"left_out", e.left_out}};
 }
 
 }  // namespace

@@ -67,10 +67,11 @@ struct SpectrumReport {
   Index rounds = 0;
 };
 
-/// Wall-clock seconds; 0 for a stage that was not needed.
+/// Wall-clock seconds; 0 for a stage that was not needed. The stages sum to the total, but for what
+/// lies between them. `check` measures results, against known answers where there are any.
 struct Timings {
   double read = 0, extract = 0, normals = 0, smooth = 0, assemble = 0, factorize = 0, solve = 0,
-         write = 0;
+         check = 0, write = 0;
   double total = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "libdsc/algorithms/regularise.h"
 #include "libdsc/base/error.h"
+#include "libdsc/cli/measured_shape.h"
 #include "libdsc/voxels/closest_point.h"
 
 namespace dsc::cli {
@@ -26,7 +27,7 @@ SmoothSurface smooth_surface(const Scene& scene, Run& run) {
   SmoothSurface smooth;
   smooth.mesh = flat_mesh(scene, run);
   if (scene.input.shape) {
-    smooth.positions = project(*scene.input.shape, scene.surface.positions(), "vertices", run);
+    smooth.positions = project_vertices(scene, run);
     run.report.positions = PositionsReport{"projected", {}, {}, {}};
   } else {
     smooth.positions = scene.positions().matrix();
@@ -52,11 +53,12 @@ SmoothSurface regularised_surface(const Scene& scene, Run& run) {
   return smooth;
 }
 
+Eigen::Matrix3Xd project_vertices(const Scene& scene, Run& run) {
+  return project(*scene.input.shape, scene.surface.positions(), "vertices", run);
+}
+
 Eigen::Matrix3Xd project_face_centres(const Scene& scene, Run& run) {
-  const DigitalSurface& surface = scene.surface;
-  Eigen::Matrix3Xd centres(3, surface.face_count());
-  Index f = 0;
-  for (const Surfel& surfel : surface.surfels()) centres.col(f++) = surfel.centre(surface.grid());
+  const Eigen::Matrix3Xd centres = face_centres(scene.surface);
   return project(*scene.input.shape, {centres.data(), centres.cols()}, "faces", run);
 }
 

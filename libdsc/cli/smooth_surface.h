@@ -31,7 +31,9 @@ SmoothSurface smooth_surface(const Scene& scene, Run& run);
 /// where a mesh has no normals.
 SmoothSurface regularised_surface(const Scene& scene, Run& run);
 
-/// The points of the shape closest to the centres of the faces, with the same warning.
+/// The points of the shape closest to the vertices, or to the centres of the faces, with the same
+/// warning.
+Eigen::Matrix3Xd project_vertices(const Scene& scene, Run& run);
 Eigen::Matrix3Xd project_face_centres(const Scene& scene, Run& run);
 
 /// f at points of the surface, which the expression sees in the world.

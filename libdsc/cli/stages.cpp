@@ -177,6 +177,7 @@ void note_calculus(Index clamped_faces, Run& run) {
 }
 
 std::vector<VertexId> find_sources(const Scene& scene, Run& run) {
+  const Stopwatch watch(run.report.timings.assemble);
   const Vec3View positions = scene.positions();
   std::vector<VertexId> sources;
   for (const std::int64_t id : run.options.source_vertices) {

@@ -82,6 +82,7 @@ std::string text_of(const Timings& t) {
   add("assemble", t.assemble);
   add("factorize", t.factorize);
   add("solve", t.solve);
+  add("check", t.check);
   add("write", t.write);
   return fmt::format("{:.2f} s", t.total) + (parts.empty() ? "" : " (" + parts + ")");
 }

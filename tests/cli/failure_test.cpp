@@ -70,6 +70,22 @@ TEST(Failure, AFailingRunWritesNoReport) {
   EXPECT_EQ(read_file(folder / "r.json"), "old");
 }
 
+TEST(Failure, ASolverThatFailsIsExitCodeFiveAndLeavesNothing) {
+  // Times and weights so far apart that doubles cannot hold both terms of the system.
+  for (const Words& extremes :
+       {Words{"diffuse", "--time", "1e18"}, Words{"diffuse", "--time", "1e308"},
+        Words{"geodesic", "--lambda", "1e-300"}}) {
+    const Folder folder;
+    const Outcome outcome =
+        run_dsc(with(extremes, {"shape:sphere", "--gridstep", "0.1", "--source", "0,0,1", "-o",
+                                folder / "w.ply", "--report", folder / "r.json"}));
+    EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("matrix"), std::string::npos) << outcome.err;
+    EXPECT_EQ(folder.names(), Words{});
+  }
+}
+
 TEST(Quiet, PrintsNothing) {
   const Outcome outcome = run_dsc({"info", "shape:sphere", "--gridstep", "0.1", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 0);

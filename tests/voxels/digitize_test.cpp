@@ -117,11 +117,13 @@ TEST(Digitize, ClosedShapesLeaveAMarginAndOpenOnesReachTheBorder) {
 TEST(Digitize, ThreadsDoNotChangeTheVoxels) {
   const Vec3 h(0.07, 0.07, 0.07);
   const BinaryVolume one = digitize(Torus(), h, Context{1});
-  const BinaryVolume many = digitize(Torus(), h, Context{4});
-  for (Index z = 0; z < one.grid().size[2]; ++z) {
-    for (Index y = 0; y < one.grid().size[1]; ++y) {
-      for (Index w = 0; w < one.words_per_row(); ++w)
-        ASSERT_EQ(one.word(w, y, z), many.word(w, y, z));
+  for (const int threads : {2, 4, 8}) {
+    const BinaryVolume many = digitize(Torus(), h, Context{threads});
+    for (Index z = 0; z < one.grid().size[2]; ++z) {
+      for (Index y = 0; y < one.grid().size[1]; ++y) {
+        for (Index w = 0; w < one.words_per_row(); ++w)
+          ASSERT_EQ(one.word(w, y, z), many.word(w, y, z));
+      }
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "libdsc/calculus/vertex_average.h"
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/known_curvatures.h"
+#include "libdsc/cli/measured_shape.h"
 #include "libdsc/cli/smooth_surface.h"
 
 #include <Eigen/Geometry>
@@ -23,13 +24,17 @@ ErrorNorms errors_where_known(const Known& known, auto&& error) {
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i]) errors.push_back(error(static_cast<Index>(i), *known[i]));
   }
-  return error_norms(Eigen::Map<const Eigen::VectorXd>(errors.data(), std::ssize(errors)));
+  ErrorNorms norms = error_norms(
+      Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(errors.data(), std::ssize(errors))));
+  norms.left_out = std::ssize(known) - std::ssize(errors);
+  return norms;
 }
 
 void measure_mean(const Known& known, const Eigen::VectorXd& mean, Run& run) {
   run.report.error_name = "against the exact mean curvature";
   run.report.error = errors_where_known(
       known, [&](Index i, const ImplicitCurvature& truth) { return mean[i] - truth.mean; });
+  warn_of_left_out(run);
 }
 
 /// Of faces or of vertices.
@@ -63,6 +68,18 @@ void measure_directions(Known known, const Eigen::Matrix3Xd& directions, Run& ru
         const Vec3 d = directions.col(i);
         return std::atan2(d.cross(truth.direction_1).norm(), std::abs(d.dot(truth.direction_1)));
       }));
+}
+
+void measure(const Scene& scene, bool on_vertices, const Curvatures& values,
+             const CurvatureField& field, Run& run) {
+  const Stopwatch watch(run.report.timings.check);
+  const ImplicitShape* shape = measured_shape(scene, run);
+  if (shape == nullptr) return;
+  const Eigen::Matrix3Xd points =
+      on_vertices ? project_vertices(scene, run) : project_face_centres(scene, run);
+  const Known known = known_curvatures(*shape, {points.data(), points.cols()}, run.context);
+  measure_all(known, values, run);
+  if (!on_vertices) measure_directions(known, field.direction_1, run);
 }
 
 Field scalar_row(const char* name, FieldOn on, const Curvatures& rows, Index row) {
@@ -99,16 +116,7 @@ void curvature_by_balls(Scene& scene, Run& run) {
   run.report.result_name = "mean_curvature";
   run.report.result = statistics_of(values.row(0));
 
-  if (scene.input.shape && on_vertices) {
-    const SmoothSurface smooth = smooth_surface(scene, run);
-    measure_all(known_curvatures(*scene.input.shape, smooth.points(), run.context), values, run);
-  } else if (scene.input.shape) {
-    const Eigen::Matrix3Xd points = project_face_centres(scene, run);
-    const Known known =
-        known_curvatures(*scene.input.shape, {points.data(), points.cols()}, run.context);
-    measure_all(known, values, run);
-    measure_directions(known, field.direction_1, run);
-  }
+  measure(scene, on_vertices, values, field, run);
 
   const FieldOn on = on_vertices ? FieldOn::vertex : FieldOn::face;
   Result result{
@@ -149,9 +157,11 @@ void curvature_by_laplacian(Scene& scene, Run& run) {
   }
   run.report.result_name = "mean_curvature";
   run.report.result = statistics_of(curvature.mean);
-  if (scene.input.shape) {
-    measure_mean(known_curvatures(*scene.input.shape, smooth.points(), run.context), curvature.mean,
-                 run);
+  {
+    const Stopwatch watch(run.report.timings.check);
+    if (const ImplicitShape* shape = measured_shape(scene, run)) {
+      measure_mean(known_curvatures(*shape, smooth.points(), run.context), curvature.mean, run);
+    }
   }
   write_outputs(scene,
                 {scene.mesh(), {scalar_field("mean_curvature", FieldOn::vertex, curvature.mean)}},

@@ -32,7 +32,10 @@ void run_diffuse(Run& run) {
     heat = diffusion->step(heat).x;
   }
   run.report.result_name = "heat";
-  run.report.result = statistics_of(heat);
+  {
+    const Stopwatch watch(timings.check);
+    run.report.result = statistics_of(heat);
+  }
   write_outputs(scene, {mesh, {scalar_field("heat", FieldOn::vertex, heat)}}, run);
 }
 

@@ -1,7 +1,7 @@
 #include "libdsc/algorithms/geodesic.h"
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/known_answers.h"
-#include "libdsc/cli/stages.h"
+#include "libdsc/cli/measured_shape.h"
 
 namespace dsc::cli {
 namespace {
@@ -36,12 +36,19 @@ GeodesicResult solve(const FlatMesh& mesh, const std::vector<VertexId>& sources,
   GeodesicOptions options = geodesic_options(run);
   // One query: what GeodesicSolver would choose for many does not pay.
   if (options.method == HeatMethod::automatic) options.method = HeatMethod::bands;
-  const GeodesicSolver solver(mesh, options, run.context);
-  GeodesicResult result = solver.distance(sources, run.context);
   Timings& timings = run.report.timings;
-  timings.assemble = solver.seconds_assemble();
+  std::optional<GeodesicSolver> solver;
+  {
+    const Stopwatch watch(timings.assemble);
+    solver.emplace(mesh, options, run.context);
+  }
+  GeodesicResult result;
+  {
+    const Stopwatch watch(timings.solve);
+    result = solver->distance(sources, run.context);
+  }
   timings.factorize = result.report.seconds_factorize;
-  timings.solve = result.report.seconds_solve;
+  timings.assemble -= timings.factorize;
   return result;
 }
 
@@ -58,16 +65,16 @@ void warn_of(const GeodesicReport& report, Run& run) {
   }
 }
 
-void measure_error(const ImplicitShape& shape, const FlatMesh& mesh,
-                   const std::vector<VertexId>& sources, const Eigen::VectorXd& distance,
-                   Run& run) {
+void measure_error(const Scene& scene, const FlatMesh& mesh, const std::vector<VertexId>& sources,
+                   const Eigen::VectorXd& distance, Run& run) {
+  if (!scene.input.shape) return;
   Eigen::Matrix3Xd points(3, static_cast<Index>(sources.size()));
   for (Index i = 0; i < points.cols(); ++i) {
     points.col(i) = mesh.positions[sources[static_cast<std::size_t>(i)]];
   }
   const std::optional<Eigen::VectorXd> known =
-      known_distances(shape, mesh.positions, points, run.context);
-  if (!known) return;
+      known_distances(*scene.input.shape, mesh.positions, points, run.context);
+  if (!known || measured_shape(scene, run) == nullptr) return;
   run.report.error_name = "against the exact distance";
   run.report.error = error_norms(distance, *known);
 }
@@ -82,9 +89,12 @@ void run_geodesic(Run& run) {
 
   note_calculus(result.report.clamped_faces, run);
   warn_of(result.report, run);
-  run.report.result_name = "distance";
-  run.report.result = statistics_of(result.distance);
-  if (scene.input.shape) measure_error(*scene.input.shape, mesh, sources, result.distance, run);
+  {
+    const Stopwatch watch(run.report.timings.check);
+    run.report.result_name = "distance";
+    run.report.result = statistics_of(result.distance);
+    measure_error(scene, mesh, sources, result.distance, run);
+  }
   write_outputs(scene, {mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}}, run);
 }
 

@@ -1,7 +1,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/cli/commands/commands.h"
-#include "libdsc/cli/stages.h"
-#include "libdsc/normals/analytic.h"
+#include "libdsc/cli/known_answers.h"
+#include "libdsc/cli/measured_shape.h"
 
 #include <Eigen/Geometry>
 
@@ -23,21 +23,26 @@ Eigen::VectorXd angles(const Vec3View& estimated, const Eigen::Matrix3Xd& exact,
   return result;
 }
 
+void measure_error(const Scene& scene, Run& run) {
+  const Stopwatch watch(run.report.timings.check);
+  const ImplicitShape* shape = measured_shape(scene, run);
+  if (shape == nullptr) return;
+  const Eigen::Matrix3Xd centres = face_centres(scene.surface);
+  const KnownVectors exact = known_normals(*shape, {centres.data(), centres.cols()}, run.context);
+  const Eigen::VectorXd error = angles(scene.surface.normals(), exact.vectors, run.context);
+  run.report.error_name = "angle to the exact normal, radians";
+  run.report.error = error_norms(error, exact.known);
+  warn_of_left_out(run);
+}
+
 }  // namespace
 
 void run_normals(Run& run) {
   Scene scene = open_scene(run);
   estimate_normals(scene, run);
 
-  const DigitalSurface& surface = scene.surface;
-  if (scene.input.shape && run.options.estimator != Estimator::analytic) {
-    const NormalField exact =
-        analytic_normals(*scene.input.shape, surface.grid(), surface.surfels(), run.context);
-    const Eigen::VectorXd error = angles(surface.normals(), exact.u, run.context);
-    run.report.error_name = "angle to the exact normal, radians";
-    run.report.error = error_norms(error);
-  }
-  const FlatMesh mesh = scene.polygons ? scene.polygons->view() : surface.flat();
+  if (run.options.estimator != Estimator::analytic) measure_error(scene, run);
+  const FlatMesh mesh = scene.polygons ? scene.polygons->view() : scene.surface.flat();
   write_outputs(scene,
                 {mesh, {vector_field("normal", {"nx", "ny", "nz"}, FieldOn::face, mesh.normals)}},
                 run);

@@ -76,15 +76,17 @@ void run_poisson(Run& run) {
   if (!run.options.fix.empty()) fix.emplace(run.options.fix);
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene, run);
-  const Conditions conditions = conditions_of(mesh, fix.has_value());
-
   const Eigen::Matrix3Xd positions = sample_points(scene, run);
   const Vec3View points{positions.data(), positions.cols()};
-  Eigen::VectorXd density = sample(rhs, points, scene, run);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertices());
-  if (fix) values = sample(*fix, points, scene, run);
-
   Timings& timings = run.report.timings;
+  Conditions conditions;
+  Eigen::VectorXd density, values = Eigen::VectorXd::Zero(mesh.vertices());
+  {
+    const Stopwatch watch(timings.assemble);
+    conditions = conditions_of(mesh, fix.has_value());
+    density = sample(rhs, points, scene, run);
+    if (fix) values = sample(*fix, points, scene, run);
+  }
   PoissonOptions options;
   options.calculus = calculus_options(run);
   options.solver.method = SolverMethod::automatic;
