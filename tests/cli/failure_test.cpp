@@ -71,10 +71,10 @@ TEST(Failure, AFailingRunWritesNoReport) {
 }
 
 TEST(Failure, ASolverThatFailsIsExitCodeFiveAndLeavesNothing) {
-  // Times and weights so far apart that doubles cannot hold both terms of the system.
-  for (const Words& extremes :
-       {Words{"diffuse", "--time", "1e18"}, Words{"diffuse", "--time", "1e308"},
-        Words{"geodesic", "--lambda", "1e-300"}}) {
+  // Weights that doubles cannot hold beside the other terms of the system, or not at all.
+  for (const Words& extremes : {Words{"diffuse", "--time", "1", "--lambda", "1e308"},
+                                Words{"geodesic", "--lambda", "1e-300"},
+                                Words{"geodesic", "--calculus", "naive", "--lambda", "1e300"}}) {
     const Folder folder;
     const Outcome outcome =
         run_dsc(with(extremes, {"shape:sphere", "--gridstep", "0.1", "--source", "0,0,1", "-o",
