@@ -91,7 +91,7 @@ TEST(GeodesicConvergence, DistancesOnTheSphereAreExactToTheBoundsOfThePrototype)
 
 TEST(GeodesicConvergence, MillionsOfVerticesAreNoWorse) {
   if (std::getenv("DSC_LONG_TESTS") == nullptr) {
-    GTEST_SKIP() << "set DSC_LONG_TESTS=1 to run it: half a minute and some gigabytes";
+    GTEST_SKIP() << "set DSC_LONG_TESTS=1 to run it: a minute and some gigabytes";
   }
   const Errors coarse = sphere_errors(0.01, false).projected;
   const Errors fine = sphere_errors(0.0033, false).projected;
