@@ -84,6 +84,11 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
   Eigen::VectorXd r = b;
   if (!x.isZero(0)) r.noalias() -= *matrix_ * x;
   double residual = r.stableNorm() / scale;
+  if (!(residual < 1)) {  // a guess that is worse than none
+    x.setZero();
+    r = b;
+    residual = 1;
+  }
   // One solve, one correction where it is asked for. The negated test lets NaN through to the
   // error.
   for (int pass = 0; pass < 2 && !(residual <= tolerance_ && (pass > 0 || residual == 0)); ++pass) {

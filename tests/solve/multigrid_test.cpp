@@ -1,6 +1,8 @@
 #include "libdsc/solve/multigrid.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/solve/spd_solver.h"
+#include "tests/solve/grid_systems.h"
 
 #include <gtest/gtest.h>
 
@@ -384,6 +386,14 @@ TEST(Multigrid, ProgressAddsUpToItsTotal) {
   solver.solve(random_vector(grid.size(), 18), nullptr, 1e-8, context);
   EXPECT_GT(monitor.total, 0);
   EXPECT_EQ(monitor.done, monitor.total);
+}
+
+TEST(Multigrid, AGuessFarOffCostsNoAccuracy) {
+  const SparseMatrix A = testing::grid_laplacian(60, 60) + 0.01 * testing::identity(3600);
+  const auto solver = make_spd_solver(A, {.method = SolverMethod::multigrid});
+  const Eigen::VectorXd b = testing::scrambled(3600);
+  const Solution far = solver->solve(b, 1e12 * testing::scrambled(3600, 5));
+  EXPECT_LE((b - A * far.x).norm(), 1e-9 * b.norm());
 }
 
 }  // namespace
