@@ -41,9 +41,13 @@ int main(int argc, char** argv) {
     const dsc::FlatMesh mesh = surface.flat();
     const Eigen::VectorXd f = squares(dsc::project_points(sphere, surface.positions()).points);
     const auto pointwise = [&](const dsc::FlatMesh& faces, const dsc::CalculusOptions& calculus) {
-      return against_truth(dsc::LaplaceBeltrami(faces, {.calculus = calculus}).pointwise(f), f);
+      dsc::LaplaceBeltramiOptions options;
+      options.calculus = calculus;
+      return against_truth(dsc::LaplaceBeltrami(faces, options).pointwise(f), f);
     };
-    const dsc::LaplaceBeltrami diffused(mesh, {.calculus = {}, .time = 0.035 * h});
+    dsc::LaplaceBeltramiOptions short_time;
+    short_time.time = 0.035 * h;
+    const dsc::LaplaceBeltrami diffused(mesh, short_time);
 
     Eigen::Matrix3Xd centres(3, mesh.faces());
     for (dsc::Index i = 0; i < mesh.faces(); ++i) {
