@@ -56,12 +56,12 @@ void study_object(const study::Arguments& arguments, const std::string& path) {
   row("mean curvature, integral invariants", balls.mean);
 
   const dsc::RegularisedPositions smooth = dsc::regularise_positions(mesh);
-  dsc::FlatMesh regular = mesh;  // the mesh at its new positions
+  dsc::FlatMesh regular;  // a smooth mesh needs no projection
   regular.positions = {smooth.positions.data(), smooth.positions.cols()};
-  regular.surfels = {};
+  regular.corners = mesh.corners;
   dsc::LaplaceBeltramiOptions options;
   options.time = 4 * spacing.maxCoeff() * spacing.maxCoeff();
-  options.calculus.stabilization = dsc::Stabilization::de_goes;
+  options.calculus.stabilization = dsc::Stabilization::mercat;
   const Eigen::VectorXd curvature = dsc::mean_curvature(regular, regular.positions, options).mean;
   row("mean curvature, Laplacian of regularised positions, diffused", curvature);
 

@@ -1,11 +1,14 @@
 #include "libdsc/solve/spd_solver.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/solve/ldlt_factor.h"
 #include "libdsc/solve/ldlt_solver.h"
 #include "libdsc/solve/multigrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -20,12 +23,15 @@ void check_length(Index length, Index n, const char* what) {
   }
 }
 
+/// Multigrid, and where the choice was ours, LDLT for the systems on which it stalls: meshes with
+/// degenerate faces.
 class MultigridSpd final : public SpdSolver {
  public:
   MultigridSpd(SparseMatrix A, const SolverOptions& options, const Context& context)
       : SpdSolver(std::move(A), options),
         context_{context.threads},  // not its monitor, which may not live as long
-        multigrid_(shared_matrix(), MultigridOptions{}, context) {
+        multigrid_(shared_matrix(), MultigridOptions{}, context),
+        automatic_(options.method == SolverMethod::automatic) {
     if (multigrid_.report().singular_components > 0) {
       throw SolverError("multigrid: the matrix of " + std::to_string(size()) +
                         " unknowns is singular; a Laplacian needs a fixed vertex in each connected "
@@ -35,13 +41,23 @@ class MultigridSpd final : public SpdSolver {
 
  protected:
   Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const override {
-    MultigridSolver::Solution s = multigrid_.solve(r, nullptr, relative_tolerance, context_);
-    return {std::move(s.x), s.iterations};
+    try {
+      MultigridSolver::Solution s = multigrid_.solve(r, nullptr, relative_tolerance, context_);
+      return {std::move(s.x), s.iterations};
+    } catch (const SolverError&) {
+      if (!automatic_) throw;
+    }
+    const std::lock_guard lock(mutex_);
+    if (!factor_) factor_.emplace(matrix());
+    return {factor_->solve(r), 0};
   }
 
  private:
   Context context_;
   MultigridSolver multigrid_;
+  bool automatic_;
+  mutable std::mutex mutex_;
+  mutable std::optional<LdltFactor> factor_;
 };
 
 }  // namespace

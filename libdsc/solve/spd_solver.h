@@ -25,7 +25,7 @@ struct Solution {
 };
 
 enum class SolverMethod {
-  automatic,  ///< ldlt up to kDirectLimit unknowns, then multigrid
+  automatic,  ///< ldlt up to kDirectLimit unknowns, then multigrid, and ldlt where that stalls
   ldlt,       ///< sparse L D Lᵀ with a nested dissection order: exact, reusable
   multigrid,  ///< conjugate gradients preconditioned by multigrid: linear memory
 };

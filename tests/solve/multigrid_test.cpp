@@ -396,5 +396,30 @@ TEST(Multigrid, AGuessFarOffCostsNoAccuracy) {
   EXPECT_LE((b - A * far.x).norm(), 1e-9 * b.norm());
 }
 
+TEST(Multigrid, WhereItStallsTheAutomaticSolverFactorizes) {
+  // A chain whose springs differ by six orders of magnitude: no coarse grid knows its modes, but
+  // a factorization is exact.
+  const Index n = kDirectLimit + 1;
+  Triplets entries;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> order(-3, 3);
+  for (Index i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 1e-4);
+    if (i + 1 == n) break;
+    const double spring = std::pow(10., order(random));
+    for (const Index a : {i, i + 1}) {
+      entries.emplace_back(a, a, spring);
+      entries.emplace_back(a, 2 * i + 1 - a, -spring);
+    }
+  }
+  SparseMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const VectorXd b = A * testing::scrambled(n);
+  const auto solver = make_spd_solver(A, {.method = SolverMethod::automatic, .tolerance = 1e-12});
+  const Solution solution = solver->solve(b);
+  EXPECT_LE((b - A * solution.x).norm(), 1e-12 * b.norm());
+  EXPECT_LE(solution.iterations, 1);  // those of a factorization: multigrid did stall
+}
+
 }  // namespace
 }  // namespace dsc
