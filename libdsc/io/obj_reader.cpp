@@ -45,7 +45,7 @@ class ObjReader {
     }
     const std::size_t comment = lines_.line().find('#', 1);
     if (comment != std::string_view::npos && lines_.line().front() != '#') {
-      lines_.set_line(lines_.line().substr(0, comment));
+      lines_.drop_comment(comment);
     }
     return true;
   }
@@ -134,7 +134,9 @@ class ObjReader {
     if (first.ec != std::errc{} || !rest.starts_with(kBetween)) return;
     rest.remove_prefix(kBetween.size());
     const auto second = std::from_chars(rest.data(), rest.data() + rest.size(), counts.faces);
-    if (second.ec == std::errc{}) counts_ = counts;
+    if (second.ec != std::errc{}) return;
+    counts_ = counts;
+    lines_.refuse_unended_number();  // whose last line ends, as we wrote it
   }
 
   void finish() {
@@ -147,6 +149,7 @@ class ObjReader {
                   "; the file is truncated, or remove the first line");
     }
     mesh_.positions = columns_of(xyz_);
+    lines_.remark_unended_number(mesh_.remarks);
     if (coloured_ > 0) {
       mesh_.remarks.push_back("the colours of " + counted(coloured_, "vertex", "vertices") +
                               " were left out");

@@ -120,6 +120,7 @@ PolygonMesh read_off(InputFile& file, const Context& context) {
   if (lines.next_with_content()) {
     lines.fail("the file goes on after its last face; are the counts right?");
   }
+  lines.remark_unended_number(mesh.remarks);
   return mesh;
 }
 

@@ -43,6 +43,7 @@ class PlyReader {
     }
     if (!vertices) lines_.fail("the header has no element vertex");
     values_->finish();
+    lines_.remark_unended_number(mesh_.remarks);
     return std::move(mesh_);
   }
 

@@ -68,17 +68,18 @@ bool TextLines::next() {
 bool TextLines::next_with_content() {
   while (next()) {
     const std::size_t comment = line_.find('#');
-    if (comment != std::string_view::npos) {
-      line_ = line_.substr(0, comment);
-      ended_ = true;
-    }
-    left_ = line_;
+    if (comment != std::string_view::npos) drop_comment(comment);
     if (more()) return true;
   }
   return false;
 }
 
 void TextLines::set_line(std::string_view line) { line_ = left_ = line; }
+
+void TextLines::drop_comment(std::size_t from) {
+  set_line(line_.substr(0, from));
+  ended_ = true;
+}
 
 bool TextLines::more() {
   while (!left_.empty() && is_blank(left_.front())) left_.remove_prefix(1);
@@ -96,11 +97,19 @@ std::string_view TextLines::word() {
   return result;
 }
 
-void TextLines::refuse_cut(std::string_view word) const {
-  if (!ended_ && word.data() + word.size() == line_.data() + line_.size()) {
+void TextLines::check_unended(std::string_view word) {
+  if (ended_ || word.data() + word.size() != line_.data() + line_.size()) return;
+  if (refuses_unended_) {
     fail("the file ends on the number " + shown(word) +
          ", which may have been cut off; if it is whole, end the line");
   }
+  unended_ = shown(word);
+}
+
+void TextLines::remark_unended_number(std::vector<std::string>& remarks) const {
+  if (unended_.empty()) return;
+  remarks.push_back("the file ends without a newline on the number " + unended_ +
+                    ", which was taken to be whole");
 }
 
 std::string_view TextLines::number_word(const char* what) {
@@ -109,7 +118,7 @@ std::string_view TextLines::number_word(const char* what) {
     if (ended_) fail(std::string(what) + " is missing; the line ends before it");
     fail(std::string(what) + " is missing; the file ends before it: it is truncated");
   }
-  refuse_cut(digits);
+  check_unended(digits);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   return digits;
 }
@@ -143,7 +152,7 @@ Index TextLines::integer(const char* what) {
 }
 
 Index TextLines::integer(std::string_view digits, const char* what) {
-  refuse_cut(digits);
+  check_unended(digits);
   Index value = 0;
   const char* end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);

@@ -36,9 +36,17 @@ class TextLines {
   std::string_view rest();
   /// Replaces the line's text (joined lines), its number unchanged.
   void set_line(std::string_view line);
+  /// Drops the rest of the line from this byte on.
+  void drop_comment(std::size_t from);
+
+  /// From now on a number is refused where the file ends on it without a newline: it may have been
+  /// cut off. Until then it is taken as whole, as many programs end their files so.
+  void refuse_unended_number() { refuses_unended_ = true; }
+  /// Adds a sentence where such a number was taken.
+  void remark_unended_number(std::vector<std::string>& remarks) const;
 
   /// The next word as a number. \throws InputError, calling it `what`, where there is none, it is
-  /// something else, or the file ends on it.
+  /// something else, or the file ends on it and refuse_unended_number() was called.
   double real(const char* what);
   /// The same, and finite.
   double finite(const char* what);
@@ -51,7 +59,7 @@ class TextLines {
 
  private:
   std::string_view number_word(const char* what);
-  void refuse_cut(std::string_view word) const;
+  void check_unended(std::string_view word);
 
   InputFile& file_;
   std::function<void(Index)> on_read_;
@@ -60,6 +68,8 @@ class TextLines {
   std::string_view line_;
   std::string_view left_;  ///< of the line
   bool ended_ = true;      ///< by a newline
+  bool refuses_unended_ = false;
+  std::string unended_;  ///< the number on which the file ended
   Index number_ = 0;
   Index position_ = 0;
 };

@@ -150,7 +150,17 @@ TEST(MeshFiles, StlCutsQuadsAlongTheirShorterDiagonalAndKeepsTheArea) {
   EXPECT_DOUBLE_EQ(up, area) << "a triangle is turned over";
 }
 
-/// A file cut anywhere is refused or gives all of the mesh: nothing in between.
+/// Whether `part` is cut inside the last number, and says so.
+bool says_it_ends_early(const PolygonMesh& part, const std::string& bytes, std::size_t n) {
+  const std::size_t last_word = bytes.find_last_of(" \n", bytes.size() - 2);
+  return n > last_word + 1 &&
+         std::any_of(part.remarks.begin(), part.remarks.end(), [](const std::string& remark) {
+           return remark.find("without a newline") != std::string::npos;
+         });
+}
+
+/// A file cut anywhere is refused or gives all of the mesh; only inside the very last number of a
+/// text without a count of bytes or lines nobody can tell, and a remark says so.
 TEST(MeshFiles, CutAtAnyByteNothingIsHalfRead) {
   const TemporaryFolder folder;
   PolygonMesh mesh = test::mixed_mesh();
@@ -181,12 +191,16 @@ TEST(MeshFiles, CutAtAnyByteNothingIsHalfRead) {
     SCOPED_TRACE(name);
     write_all(folder / name, bytes);
     const PolygonMesh whole = read_mesh(folder / name);
-    std::size_t refused = 0;
+    std::size_t refused = 0, doubtful = 0;
     for (std::size_t n = 0; n < bytes.size(); ++n) {
       const std::string path = folder / ("cut_" + name);
       write_all(path, bytes.substr(0, n));
       try {
         const PolygonMesh part = read_mesh(path);
+        if (says_it_ends_early(part, bytes, n)) {
+          ++doubtful;
+          continue;
+        }
         ASSERT_TRUE(same_geometry(whole, part)) << "cut at byte " << n;
         expect_same_fields(whole, part);
       } catch (const InputError& error) {
@@ -199,6 +213,7 @@ TEST(MeshFiles, CutAtAnyByteNothingIsHalfRead) {
       }
     }
     EXPECT_GE(refused + 20, bytes.size());
+    EXPECT_EQ(doubtful > 0, name == "a.off" || name == "text.ply");
   }
 }
 
