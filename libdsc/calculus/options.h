@@ -16,7 +16,8 @@ enum class Stabilization {
 };
 
 struct CalculusOptions {
-  /// λ of Stabilization::de_goes, > 0. On flat square surfels the maximum principle holds for
+  /// λ of Stabilization::de_goes, > 0 and at most 1e6: beyond, what it weighs drowns the rest in
+  /// rounding. On flat square surfels the maximum principle holds for
   /// λ <= 1/2.
   double lambda = 0.25;
   /// The least cosine between the estimated normal and the face's own, in (0, 1]; below it the

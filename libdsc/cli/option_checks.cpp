@@ -1,6 +1,7 @@
 #include "libdsc/cli/option_checks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/calculus/options.h"
 #include "libdsc/cli/file_checks.h"
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
@@ -91,6 +92,8 @@ void check_options(const Options& o) {
   if (o.threshold && !o.labels.empty()) {
     throw UsageError("--threshold and --label both say which voxels are inside; give one of them");
   }
+  CalculusOptions{o.lambda}.check();
+  if (o.curvature_lambda > 0) CalculusOptions{o.curvature_lambda}.check();
   check_have_effect(o);
   check_files(o);
 }

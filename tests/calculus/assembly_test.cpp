@@ -199,6 +199,7 @@ TEST(Assembly, BadInputIsRefusedAndNamed) {
 
   EXPECT_THROW(assemble_laplacian(good.view(), {0.}), UsageError);
   EXPECT_THROW(assemble_laplacian(good.view(), {std::nan("")}), UsageError);
+  EXPECT_THROW(assemble_laplacian(good.view(), {1e7}), UsageError);
   EXPECT_THROW(assemble_laplacian(good.view(), {0.25, 0.}), UsageError);
   EXPECT_THROW(assemble_laplacian(good.view(), {0.25, 1.5}), UsageError);
   const CalculusOptions elements{0.25, 0.01, Stabilization::corrected_elements};

@@ -6,8 +6,9 @@
 namespace dsc::test {
 namespace {
 
-const std::vector<std::string> kCommands = {"info",    "surface",  "normals", "gradient",
-                                            "diffuse", "geodesic", "spectrum"};
+const std::vector<std::string> kCommands = {"info",     "surface",   "normals", "curvature",
+                                            "gradient", "laplacian", "poisson", "diffuse",
+                                            "geodesic", "spectrum"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -99,6 +100,19 @@ TEST(CommandLine, WhatIsWrongIsNamedWithExitCodeTwo) {
                  {"999999", "0 to"});
   expect_refused(run_dsc({"info", sphere, "--gridstep", "0.1", "--threads", "0"}), 2,
                  {"--threads"});
+}
+
+TEST(CommandLine, AnAbsurdStabilisationIsRefusedByItsName) {
+  const std::vector<std::string> sphere = {"shape:sphere", "--gridstep", "0.1", "--lambda"};
+  for (const std::string value : {"1e7", "1e308"}) {
+    for (std::vector<std::string> command :
+         {std::vector<std::string>{"diffuse", "--source", "0,0,1", "--time", "1"},
+          {"curvature", "--estimator", "laplacian"}}) {
+      command.insert(command.end(), sphere.begin(), sphere.end());
+      command.push_back(value);
+      expect_refused(run_dsc(command), 2, {"lambda", "1e6"});
+    }
+  }
 }
 
 TEST(CommandLine, AnOptionThatCouldChangeNothingIsRefused) {

@@ -71,9 +71,9 @@ TEST(Failure, AFailingRunWritesNoReport) {
 }
 
 TEST(Failure, ASolverThatFailsIsExitCodeFiveAndLeavesNothing) {
-  // Weights that doubles cannot hold beside the other terms of the system, or not at all.
+  // A weight that doubles cannot hold beside the other terms of the system.
   for (const Words& extremes : {Words{"geodesic", "--lambda", "1e-300"},
-                                Words{"geodesic", "--calculus", "naive", "--lambda", "1e300"}}) {
+                                Words{"geodesic", "--calculus", "naive", "--lambda", "1e-300"}}) {
     const Folder folder;
     const Outcome outcome =
         run_dsc(with(extremes, {"shape:sphere", "--gridstep", "0.1", "--source", "0,0,1", "-o",
