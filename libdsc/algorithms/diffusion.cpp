@@ -1,6 +1,7 @@
 #include "libdsc/algorithms/diffusion.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/base/parallel.h"
 #include "libdsc/calculus/assembly.h"
 
 #include <algorithm>
@@ -10,17 +11,27 @@
 
 namespace dsc {
 
-SparseMatrix heat_matrix(const LaplaceSystem& system, double t) {
+SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& context) {
   if (!(t > 0 && std::isfinite(t))) {
     throw UsageError("heat: the time step " + std::to_string(t) + " is not positive and finite");
   }
-  // The pattern of L holds its whole diagonal, but for vertices without faces.
-  SparseMatrix diagonal(system.L.rows(), system.L.cols());
-  diagonal.setIdentity();
-  for (Index v = 0; v < system.L.rows(); ++v) {
-    if (system.mass[v] != 0) diagonal.valuePtr()[v] = system.mass[v];
+  if ((system.mass.array() == 0).any()) {  // columns without a diagonal entry
+    SparseMatrix diagonal(system.L.rows(), system.L.cols());
+    diagonal.setIdentity();
+    for (Index v = 0; v < system.L.rows(); ++v) {
+      if (system.mass[v] != 0) diagonal.valuePtr()[v] = system.mass[v];
+    }
+    return diagonal - t * system.L;
   }
-  return diagonal - t * system.L;
+  SparseMatrix A = system.L;  // the pattern is that of L: the values alone differ
+  parallel_for(context, A.cols(), 4096, [&](Index first, Index last) {
+    for (Index v = first; v < last; ++v) {
+      for (SparseMatrix::InnerIterator it(A, v); it; ++it) {
+        it.valueRef() = (it.row() == v ? system.mass[v] : 0.) - t * it.value();
+      }
+    }
+  });
+  return A;
 }
 
 namespace {
@@ -41,7 +52,7 @@ HeatDiffusion::HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOpti
     : time_(t) {
   LaplaceSystem system = assemble_laplacian(mesh, options.calculus, context);
   clamped_faces_ = system.clamped_faces;
-  SparseMatrix A = heat_matrix(system, t);
+  SparseMatrix A = heat_matrix(system, t, context);
   const double rounding = rounding_of(system, t);
   if (static_cast<double>(system.L.rows() + 10) * rounding > 1) {
     throw UsageError("diffusion: after the time " + std::to_string(t) +

@@ -16,7 +16,7 @@ struct LaplaceSystem;
 
 /// M0 - t L of an assembled system, symmetric positive definite; rows of vertices without faces get
 /// a 1 on the diagonal. \throws UsageError unless t > 0 and finite.
-SparseMatrix heat_matrix(const LaplaceSystem& system, double t);
+SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& context = {});
 
 struct DiffusionOptions {
   CalculusOptions calculus;

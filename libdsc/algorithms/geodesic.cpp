@@ -81,7 +81,7 @@ struct GeodesicSolver::Data {
 
   DirectHeat factorize(double t, const Context& context) const {
     DirectHeat h;
-    h.A = heat_matrix(system, t);
+    h.A = heat_matrix(system, t, context);
     h.reflected = make_solver(options.factory, h.A, {}, context);
     if (!boundary.empty())
       h.absorbed = make_solver(options.factory, hold(h.A, boundary), {}, context);
@@ -126,13 +126,13 @@ struct GeodesicSolver::Data {
 
   void solve_bands(std::span<const VertexId> sources, WideVector& w, GeodesicReport& report,
                    const Context& context) const {
-    // So many levels that heat has fallen as far at their end as it falls in 10 and 8 hops of
+    // So many levels that heat has fallen as far at their end as it falls in 16 and 8 hops of
     // sqrt(t).
     const double stretch = std::max(1., std::sqrt(time) / hop);
     const auto levels = [&](double n) {
       return static_cast<Index>(std::min(std::ceil(n * stretch), 1e9));
     };
-    FrontOptions front_options{levels(10), levels(8)};
+    FrontOptions front_options{levels(16), levels(8)};
     for (const bool absorb : {false, true}) {
       if (absorb && boundary.empty()) break;
       const std::span<const char> fixed =
@@ -195,7 +195,8 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   if (data->method == HeatMethod::direct) {
     data->direct = data->factorize(data->time, context);
   }
-  data->heat = data->direct.A.size() != 0 ? data->direct.A : heat_matrix(data->system, data->time);
+  data->heat =
+      data->direct.A.size() != 0 ? data->direct.A : heat_matrix(data->system, data->time, context);
   data->poisson = std::make_unique<NeumannSolver>(-data->system.L, data->components,
                                                   options.poisson, context, options.factory);
   data->seconds_factorize = seconds_since(factorize);

@@ -10,7 +10,7 @@
 ///
 /// Two ways to diffuse the heat. `direct` factorizes M0 - t L once and then serves any sources;
 /// `bands` follows the front of each set of sources (heat_front.h), in linear time and little
-/// memory. Both give the same distances to about 1e-4 of the gridstep.
+/// memory. Both give the same distances to about 1e-3 of the gridstep.
 #pragma once
 
 #include "libdsc/calculus/options.h"

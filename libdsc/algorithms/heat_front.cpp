@@ -1,5 +1,6 @@
 #include "libdsc/algorithms/heat_front.h"
 
+#include "libdsc/algorithms/heat_levels.h"
 #include "libdsc/base/error.h"
 #include "libdsc/base/parallel.h"
 #include "libdsc/solve/ldlt_factor.h"
@@ -13,54 +14,18 @@
 namespace dsc {
 namespace {
 
-/// The free vertices that the sources reach, level after level.
-struct Levels {
-  std::vector<VertexId> order;  ///< vertices by level
-  std::vector<Index> start;     ///< of each level in `order`, and the end
-  std::vector<VertexId> place;  ///< V: where in `order`, or -1
-
-  Index count() const { return static_cast<Index>(start.size()) - 1; }
-};
-
-Levels breadth_first(const SparseMatrix& A, std::span<const VertexId> sources,
-                     std::span<const char> fixed) {
-  Levels l;
-  l.place.assign(static_cast<std::size_t>(A.rows()), -1);
-  const auto visit = [&](VertexId v) {
-    auto& place = l.place[static_cast<std::size_t>(v)];
-    if (place >= 0 || (!fixed.empty() && fixed[static_cast<std::size_t>(v)] != 0)) return;
-    place = static_cast<VertexId>(l.order.size());
-    l.order.push_back(v);
-  };
-  for (const VertexId s : sources) {
-    if (s < 0 || s >= A.rows()) {
-      throw UsageError("heat: there is no vertex " + std::to_string(s) + " to start from");
-    }
-    visit(s);
-  }
-  l.start.push_back(0);
-  for (std::size_t first = 0; first < l.order.size();) {
-    const std::size_t last = l.order.size();
-    l.start.push_back(static_cast<Index>(last));
-    for (std::size_t i = first; i < last; ++i) {
-      for (SparseMatrix::InnerIterator it(A, l.order[i]); it; ++it) {
-        visit(static_cast<VertexId>(it.row()));
-      }
-    }
-    first = last;
-  }
-  return l;
-}
+constexpr double kUnmet = 3e-4;  // the residual of an equation that is worth a repair
+constexpr Index kRepairs = 8;
 
 /// The lower triangle of A on the vertices at [first, last) of the order, columns sorted.
-SparseMatrix band_matrix(const SparseMatrix& A, const Levels& levels, Index first, Index last) {
+SparseMatrix band_matrix(const SparseMatrix& A, const HeatLevels& levels, Index first, Index last) {
   const auto n = static_cast<Eigen::Index>(last - first);
   SparseMatrix band(n, n);
   int* const start = band.outerIndexPtr();
   const auto for_each = [&](auto&& visit) {  // row p ascending, columns q <= p
     for (Index p = first; p < last; ++p) {
-      for (SparseMatrix::InnerIterator it(A, levels.order[static_cast<std::size_t>(p)]); it; ++it) {
-        const Index q = levels.place[static_cast<std::size_t>(it.row())];
+      for (SparseMatrix::InnerIterator it(A, levels.vertex(p)); it; ++it) {
+        const Index q = levels.position(it.row());
         if (q >= first && q <= p) visit(p - first, q - first, it.value());
       }
     }
@@ -78,6 +43,138 @@ SparseMatrix band_matrix(const SparseMatrix& A, const Levels& levels, Index firs
   return band;
 }
 
+/// What the positions outside [first, last) send to `position`.
+Wide arriving_heat(const SparseMatrix& A, const HeatLevels& levels, const WideVector& w,
+                   Index first, Index last, Index position) {
+  Wide sum;
+  for (SparseMatrix::InnerIterator it(A, levels.vertex(position)); it; ++it) {
+    const Index q = levels.position(it.row());
+    if (q < 0 || (q >= first && q < last)) continue;
+    sum.add(-it.value() * w.mantissa(it.row()), w.exponent(it.row()));
+  }
+  return sum;
+}
+
+/// |A w - δ|_v / (|A| |w| + δ)_v, 0 where all of it is 0.
+double row_residual(const SparseMatrix& A, const WideVector& w, Index v, bool source) {
+  Wide sum, size;
+  if (source) {
+    sum.add(-1, 0);
+    size.add(1, 0);
+  }
+  for (SparseMatrix::InnerIterator it(A, v); it; ++it) {
+    const double term = it.value() * w.mantissa(it.row());
+    sum.add(term, w.exponent(it.row()));
+    size.add(std::abs(term), w.exponent(it.row()));
+  }
+  if (size.mantissa == 0) return 0;
+  const double shrink = std::ldexp(1., 256 * std::max(-8, sum.exponent - size.exponent));
+  return std::abs(sum.mantissa) * shrink / size.mantissa;
+}
+
+/// Sweeps over the bands of one front.
+class Front {
+ public:
+  Front(const SparseMatrix& A, const HeatLevels& levels, const FrontOptions& options)
+      : A_(A), levels_(levels), options_(options), w_(A.rows()) {}
+
+  Index bands() const { return (levels_.count() + options_.band - 1) / options_.band; }
+  WideVector take() && { return std::move(w_); }
+
+  /// Band after band, zero beyond each. Factorizations in parallel, a group at a time so that
+  /// memory is that of a few bands.
+  void advance(const Context& context) {
+    const Index group = 4 * static_cast<Index>(thread_count(context));
+    std::vector<std::optional<LdltFactor>> factors;
+    for (Index k0 = 0; k0 < bands(); k0 += group) {
+      const Index k1 = std::min(bands(), k0 + group);
+      factors.clear();
+      factors.resize(static_cast<std::size_t>(k1 - k0));
+      parallel_for(context, k1 - k0, 1, [&](Index i, Index) {
+        const Index level = (k0 + i) * options_.band;
+        factors[static_cast<std::size_t>(i)].emplace(
+            band_matrix(A_, levels_, levels_.start(level),
+                        levels_.start(level + options_.band + options_.overlap)),
+            FillOrder::minimum_degree);
+      });
+      for (Index k = k0; k < k1; ++k) {
+        const Index level = k * options_.band;
+        // Nothing is known beyond a band yet, so w is 0 there.
+        solve(*factors[static_cast<std::size_t>(k - k0)], level, level + options_.band,
+              level + options_.band + options_.overlap, context);
+        context.advance(1);
+      }
+    }
+  }
+
+  /// Solves anew around the levels where the front left an equation unmet, with what is known on
+  /// both sides: heat that came from ahead, over steep faces. False where there is none.
+  bool repair(std::span<const char> source, const Context& context) {
+    const std::vector<Index> levels = unmet_levels(source, context);
+    for (std::size_t i = 0; i < levels.size();) {
+      std::size_t j = i + 1;
+      while (j < levels.size() && levels[j] - levels[j - 1] <= options_.overlap) ++j;
+      const Index first = std::max(Index{0}, levels[i] - options_.overlap);
+      const Index last = std::min(levels_.count(), levels[j - 1] + options_.overlap + 1);
+      solve(LdltFactor(band_matrix(A_, levels_, levels_.start(first), levels_.start(last)),
+                       FillOrder::minimum_degree),
+            first, last, last, context);
+      i = j;
+    }
+    return !levels.empty();
+  }
+
+ private:
+  /// Solves on the levels [first, beyond), whose matrix has this factor, and keeps those before
+  /// `last`.
+  void solve(const LdltFactor& factor, Index first, Index last, Index beyond,
+             const Context& context) {
+    context.check();
+    const Index begin = levels_.start(first), end = levels_.start(beyond);
+    WideVector x(factor.size());
+    const auto take = [&](Index level) {  // only neighbouring levels are coupled
+      for (Index p = levels_.start(level); p < levels_.start(level + 1); ++p) {
+        x.set(p - begin, arriving_heat(A_, levels_, w_, begin, end, p));
+      }
+    };
+    take(first);
+    if (beyond - 1 > first) take(std::min(beyond, levels_.count()) - 1);
+    for (Index p = begin; p < levels_.start(1); ++p) x.add(p - begin, 1, 0);
+    factor.solve_in_place(x);
+    for (Index p = begin; p < levels_.start(last); ++p) w_.set(levels_.vertex(p), x[p - begin]);
+  }
+
+  std::vector<Index> unmet_levels(std::span<const char> source, const Context& context) const {
+    std::vector<char> unmet(static_cast<std::size_t>(levels_.count()), 0);
+    parallel_for(context, levels_.count(), 8, [&](Index first, Index last) {
+      for (Index level = first; level < last; ++level) {
+        for (Index p = levels_.start(level); p < levels_.start(level + 1); ++p) {
+          const VertexId v = levels_.vertex(p);
+          if (row_residual(A_, w_, v, source[static_cast<std::size_t>(v)] != 0) <= kUnmet) continue;
+          unmet[static_cast<std::size_t>(level)] = 1;
+          break;
+        }
+      }
+    });
+    std::vector<Index> result;
+    for (Index level = 0; level < levels_.count(); ++level) {
+      if (unmet[static_cast<std::size_t>(level)] != 0) result.push_back(level);
+    }
+    return result;
+  }
+
+  const SparseMatrix& A_;
+  const HeatLevels& levels_;
+  const FrontOptions& options_;
+  WideVector w_;
+};
+
+std::vector<char> flags(Index n, std::span<const VertexId> sources) {
+  std::vector<char> result(static_cast<std::size_t>(n), 0);
+  for (const VertexId s : sources) result[static_cast<std::size_t>(s)] = 1;
+  return result;
+}
+
 }  // namespace
 
 HeatFront diffuse_front(const SparseMatrix& A, std::span<const VertexId> sources,
@@ -89,82 +186,30 @@ HeatFront diffuse_front(const SparseMatrix& A, std::span<const VertexId> sources
   if (!fixed.empty() && static_cast<Index>(fixed.size()) != A.rows()) {
     throw UsageError("heat: the flags of fixed vertices are those of another mesh");
   }
-  const Levels levels = breadth_first(A, sources, fixed);
-  HeatFront front;
-  front.w = WideVector(A.rows());
-  front.levels = levels.count();
-  front.bands = (levels.count() + options.band - 1) / options.band;
-  const auto start = [&](Index level) {
-    return levels.start[static_cast<std::size_t>(std::min(level, levels.count()))];
-  };
-
-  // Factorizations in parallel, a group at a time so that memory is that of a few bands.
-  const Index group = 4 * static_cast<Index>(thread_count(context));
-  std::vector<std::optional<LdltFactor>> factors;
-  context.begin("heat", front.bands);
-  for (Index k0 = 0; k0 < front.bands; k0 += group) {
-    const Index k1 = std::min(front.bands, k0 + group);
-    factors.clear();
-    factors.resize(static_cast<std::size_t>(k1 - k0));
-    parallel_for(context, k1 - k0, 1, [&](Index i, Index) {
-      const Index level = (k0 + i) * options.band;
-      factors[static_cast<std::size_t>(i)].emplace(
-          band_matrix(A, levels, start(level), start(level + options.band + options.overlap)),
-          FillOrder::minimum_degree);
-    });
-    for (Index k = k0; k < k1; ++k) {
-      const LdltFactor& factor = *factors[static_cast<std::size_t>(k - k0)];
-      const Index first = start(k * options.band);
-      WideVector x(factor.size());
-      if (k == 0) {
-        for (Index p = 0; p < start(1); ++p) x.set(p, {1, 0});
-      } else {  // level k * band takes what the level before it gives
-        for (Index p = first; p < start(k * options.band + 1); ++p) {
-          const VertexId v = levels.order[static_cast<std::size_t>(p)];
-          Wide sum;
-          for (SparseMatrix::InnerIterator it(A, v); it; ++it) {
-            const Index q = levels.place[static_cast<std::size_t>(it.row())];
-            if (q < 0 || q >= first) continue;
-            sum.add(-it.value() * front.w.mantissa(it.row()), front.w.exponent(it.row()));
-          }
-          x.set(p - first, sum);
-        }
-      }
-      factor.solve_in_place(x);
-      const Index own = start((k + 1) * options.band) - first;
-      for (Index p = 0; p < own; ++p) {
-        front.w.set(levels.order[static_cast<std::size_t>(first + p)], x[p]);
-      }
-      context.advance(1);
-    }
-  }
-  return front;
+  const HeatLevels levels = heat_levels(A, sources, fixed);
+  Front front(A, levels, options);
+  HeatFront result;
+  result.levels = levels.count();
+  result.bands = front.bands();
+  context.begin("heat", front.bands());
+  front.advance(context);
+  const std::vector<char> source = flags(A.rows(), sources);
+  while (result.repairs < kRepairs && front.repair(source, context)) ++result.repairs;
+  result.w = std::move(front).take();
+  return result;
 }
 
 double componentwise_residual(const SparseMatrix& A, const WideVector& w,
                               std::span<const VertexId> sources, std::span<const char> fixed,
                               const Context& context) {
-  std::vector<char> source(static_cast<std::size_t>(A.rows()), 0);
-  for (const VertexId s : sources) source[static_cast<std::size_t>(s)] = 1;
+  const std::vector<char> source = flags(A.rows(), sources);
   return parallel_reduce(
       context, A.rows(), 4096, 0.,
       [&](Index first, Index last) {
         double worst = 0;
         for (Index v = first; v < last; ++v) {
           if (!fixed.empty() && fixed[static_cast<std::size_t>(v)] != 0) continue;
-          Wide sum, size;
-          if (source[static_cast<std::size_t>(v)] != 0) {
-            sum.add(-1, 0);
-            size.add(1, 0);
-          }
-          for (SparseMatrix::InnerIterator it(A, v); it; ++it) {
-            const double term = it.value() * w.mantissa(it.row());
-            sum.add(term, w.exponent(it.row()));
-            size.add(std::abs(term), w.exponent(it.row()));
-          }
-          if (size.mantissa == 0) continue;
-          const double shrink = std::ldexp(1., 256 * std::max(-8, sum.exponent - size.exponent));
-          const double residual = std::abs(sum.mantissa) * shrink / size.mantissa;
+          const double residual = row_residual(A, w, v, source[static_cast<std::size_t>(v)] != 0);
           // Not max(): NaN must win.
           if (!(residual <= worst)) worst = residual;
         }

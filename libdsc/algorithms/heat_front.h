@@ -7,8 +7,10 @@
 /// the sources and cut the levels into bands; the system of a band, with a few levels of overlap
 /// beyond it where heat is taken to be zero, is solved directly with the heat on the level before
 /// the band as Dirichlet data. The bands' factorizations do not depend on one another and run in
-/// parallel; the right-hand sides alone follow the front. Numbers are wide (wide_vector.h): plain
-/// doubles would underflow some 700 sqrt(t) from the sources.
+/// parallel; the right-hand sides alone follow the front. Where heat does come from beyond, on
+/// detours over steep faces that are shorter than they have levels, equations are left unmet: these
+/// places are solved again with the heat on both sides as data. Numbers are wide (wide_vector.h):
+/// plain doubles would underflow some 700 sqrt(t) from the sources.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -20,7 +22,7 @@
 namespace dsc {
 
 struct FrontOptions {
-  Index band = 10;    ///< levels a band, at least 1
+  Index band = 16;    ///< levels a band, at least 1
   Index overlap = 8;  ///< levels beyond a band that its system includes, at least 1
 };
 
@@ -28,6 +30,7 @@ struct HeatFront {
   WideVector w;      ///< V; 0 where no source reaches and at fixed vertices
   Index levels = 0;  ///< breadth-first levels, the sources' own included
   Index bands = 0;
+  Index repairs = 0;  ///< passes over the places where heat came from ahead of the front
 };
 
 /// `A` = M0 - t L, both triangles; `sources` are the vertices where δ = 1, duplicates allowed; at

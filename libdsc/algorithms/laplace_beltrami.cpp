@@ -22,8 +22,8 @@ LaplaceBeltrami::LaplaceBeltrami(const FlatMesh& mesh, const LaplaceBeltramiOpti
   }
   if (options.time > 0) {
     const auto start = std::chrono::steady_clock::now();
-    solver_ =
-        make_solver(options.factory, heat_matrix(system_, options.time), options.solver, context);
+    solver_ = make_solver(options.factory, heat_matrix(system_, options.time, context),
+                          options.solver, context);
     seconds_factorize_ =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
