@@ -10,10 +10,14 @@
 #   ./cmake/bootstrap.sh test          builds everything, runs every test
 #   ./cmake/bootstrap.sh figures       builds the program, measures the README's table of figures
 #                                      anew and writes it there; real voxels from DSC_TEST_DATA
+#   ./cmake/bootstrap.sh benchmarks [--quick]
+#                                      measures every stage and whole jobs against what the machine can
+#                                      do and rewrites tests/benchmarks/RESULTS.md, in a quarter of an
+#                                      hour; --quick prints what small surfaces take, in two minutes
 set -euo pipefail
 
 usage() {
-  sed -n '5,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,16s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -23,7 +27,8 @@ say() { printf '== %s\n' "$*"; }
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
 image_packages=(libinsighttoolkit5-dev)
-test_packages=(libgtest-dev libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
+benchmark_packages=(libbenchmark-dev)
+test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -44,6 +49,7 @@ install_missing() {
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
     [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5'
+    [[ $mode != test && $mode != benchmarks ]] || printf "     %s\n" "Google Benchmark"
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
     return
@@ -130,6 +136,14 @@ case $mode in
     install_missing "${library_packages[@]}"
     configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
     exec ./cmake/figures.sh build/release/bin/dsc
+    ;;
+  benchmarks)
+    (($# == 0)) || [[ $# == 1 && $1 == --quick ]] || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}" "${benchmark_packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_BUILD_BENCHMARKS=ON
+    bin=build/release/bin
+    exec "$bin/dsc_benchmark_report" "$@" "$bin/dsc_benchmarks" "$bin/dsc" tests/benchmarks
     ;;
   *) usage ;;
 esac

@@ -1,29 +1,24 @@
-// Integral invariants: time per ball row (a ball of radius R voxels has pi R^2 rows), one thread.
+// Integral invariant normals: time per ball row (a ball of radius R voxels has π R² rows) and core.
 //
-// ns_per_row of the sums alone, by the vector path and the plain scan, and of the whole estimator
-// with its eigenvectors. The surface is a sphere of 128 voxels radius: balls of every slope.
+// Floor: the count, Σx and Σx² of a row by nibble tables take six byte shuffles of 32 bytes for
+// four rows.
+#include "libdsc/base/parallel.h"
 #include "libdsc/normals/integral_invariant.h"
-#include "libdsc/surface/digital_surface.h"
-#include "libdsc/surface/extract.h"
-#include "libdsc/voxels/digitize.h"
-#include "libdsc/voxels/shapes.h"
+#include "tests/benchmarks/measure.h"
+#include "tests/benchmarks/scene.h"
 
-#include <benchmark/benchmark.h>
-
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
-namespace dsc {
+namespace dsc::benchmarks {
 namespace {
 
-struct Scene {
-  BinaryVolume volume = digitize(Sphere(), Vec3::Constant(1. / 128));
-  DigitalSurface surface = extract_surface(volume);
-};
+constexpr int kSumsSize = 193;  // balls of every slope, on a surface beyond the caches
+constexpr double kShufflesPerRow = 1.5;
 
-const Scene& scene() {
-  static const Scene s;
-  return s;
-}
+double ball_rows(double radius) { return std::numbers::pi * radius * radius; }
 
 Index3 doubled_centre(const Surfel& s) {
   Index3 c{2 * Index{s.x}, 2 * Index{s.y}, 2 * Index{s.z}};
@@ -31,49 +26,101 @@ Index3 doubled_centre(const Surfel& s) {
   return c;
 }
 
-/// Seconds a row, from a rate inverted.
-void report(benchmark::State& state, double balls, double radius) {
-  const double rows = balls * std::numbers::pi * radius * radius;
-  state.counters["s_per_row"] =
-      benchmark::Counter(rows * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-/// Consecutive surfels of one stretch, as the estimator meets them.
-std::span<const Surfel> stretch(double radius) {
-  const std::span<const Surfel> all = scene().surface.surfels();
-  const auto n = std::min(all.size(), static_cast<std::size_t>(4e6 / (radius * radius)));
-  return all.subspan(all.size() / 3, std::min(n, all.size() / 3));
-}
-
-template <bool kPlain>
-void moments(benchmark::State& state) {
-  const auto radius = static_cast<double>(state.range(0));
-  const BallScanner scan(scene().volume, radius / 128, BallScanner::Centres::surfels);
-  const std::span<const Surfel> surfels = stretch(radius);
-  for (auto _ : state) {
-    for (const Surfel& s : surfels) {
-      const Index3 centre = doubled_centre(s);
-      benchmark::DoNotOptimize(kPlain ? scan.plain(centre) : scan(centre));
-    }
+/// Balls of `sample` evenly spread surfels whose moments differ from the plain scan's.
+double wrong_balls(const BallScanner& scan, std::span<const Surfel> surfels, std::size_t sample) {
+  double wrong = 0;
+  const std::size_t step = std::max<std::size_t>(1, surfels.size() / sample);
+  for (std::size_t i = 0; i < surfels.size(); i += step) {
+    const Index3 centre = doubled_centre(surfels[i]);
+    wrong += scan(centre) == scan.plain(centre) ? 0 : 1;
   }
-  report(state, static_cast<double>(surfels.size()), radius);
+  return wrong;
 }
 
+/// About `wanted` surfels of every part of the surface, in the order in which an estimator meets
+/// them.
+std::vector<Surfel> stretches(std::span<const Surfel> all, std::size_t wanted) {
+  constexpr std::size_t kParts = 16;
+  std::vector<Surfel> some;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t begin = all.size() * part / kParts;
+    const std::size_t end = std::min(begin + wanted / kParts, all.size() * (part + 1) / kParts);
+    some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
+                all.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  return some;
+}
+
+/// The sums alone, on one thread.
+template <bool kPlain>
+void sums(benchmark::State& state) {
+  const auto radius = static_cast<double>(state.range(0));
+  const Scene& s = scene(kSumsSize);
+  const BallScanner scan(s.volume, radius * s.h, BallScanner::Centres::surfels);
+  const std::span<const Surfel> all = s.surface.surfels();
+  const std::vector<Surfel> surfels =
+      stretches(all, static_cast<std::size_t>((kPlain ? 1e7 : 5e7) / ball_rows(radius)));
+  const auto balls = static_cast<double>(surfels.size());
+  std::optional<Index> total;
+  const Cost cost = measure(
+      state, balls,
+      [&] {
+        Index count = 0;
+        for (const Surfel& surfel : surfels) {
+          const Index3 centre = doubled_centre(surfel);
+          count += (kPlain ? scan.plain(centre) : scan(centre)).second[3];
+        }
+        return count;
+      },
+      total);
+  state.counters["ns_per_row"] = 1e9 * cost.warm / (balls * ball_rows(radius));
+  if (!kPlain) state.counters["wrong_balls"] = wrong_balls(scan, all, 2000);
+  note_floor(state, kShufflesPerRow * balls * ball_rows(radius), kShuffles);
+}
+
+/// The whole estimator, eigenvectors included, on all cores. Error: degrees, against the sphere's.
 void normals(benchmark::State& state) {
   const auto radius = static_cast<double>(state.range(0));
-  const std::span<const Surfel> surfels = stretch(radius);
-  const auto centre = state.range(1) == 0 ? BallCentre::surfel : BallCentre::voxel_pair;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        integral_invariant_normals(scene().volume, surfels, {radius / 128, centre}, {1, nullptr}));
+  const Scene& s = scene(static_cast<int>(state.range(1)));
+  const auto threads = static_cast<int>(state.range(2));
+  const Context context{threads, nullptr};
+  std::optional<NormalField> field;
+  const Cost cost = measure(
+      state, s.faces(),
+      [&] {
+        return integral_invariant_normals(s.volume, s.surface.surfels(), {radius * s.h}, context);
+      },
+      field);
+  const double rows = s.faces() * ball_rows(radius);
+  const double cores = thread_count(context);
+  state.counters["ns_per_row"] = 1e9 * cost.warm * cores / rows;
+  Eigen::VectorXd degrees(field->u.cols());
+  for (Index f = 0; f < degrees.size(); ++f) {
+    const Vec3 truth =
+        s.surface.surfels()[static_cast<std::size_t>(f)].centre(s.volume.grid()).normalized();
+    const Vec3 u = field->u.col(f);
+    degrees[f] = std::atan2(u.cross(truth).norm(), u.dot(truth)) * 180. / std::numbers::pi;
   }
-  report(state, static_cast<double>(surfels.size()) * (state.range(1) == 0 ? 1 : 2), radius);
+  note_errors(state, degrees);
+  note_floor(state, kShufflesPerRow * rows / cores, kShuffles);
 }
 
-BENCHMARK(moments<false>)->Name("moments/vector")->Arg(3)->Arg(6)->Arg(12)->Arg(24);
-BENCHMARK(moments<true>)->Name("moments/plain")->Arg(3)->Arg(6)->Arg(12)->Arg(24);
-BENCHMARK(normals)->ArgNames({"R", "pair"})->ArgsProduct({{3, 6, 12, 24}, {0, 1}});
+benchmark::internal::Benchmark* by_hand(benchmark::internal::Benchmark* family) {
+  return family->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+
+const bool registered = [] {
+  for (const int radius : {3, 6, 12, 24}) {
+    by_hand(benchmark::RegisterBenchmark("sums/vector", sums<false>)->ArgName("R"))->Arg(radius);
+    by_hand(benchmark::RegisterBenchmark("sums/plain", sums<true>)->ArgName("R"))->Arg(radius);
+    auto* all = by_hand(benchmark::RegisterBenchmark("normals", normals));
+    all->ArgNames({"R", "n", "threads"});
+    for (const int n : kSizes) all->Args({radius, n, 0});
+    all->Args({radius, kSumsSize, 1});
+  }
+  by_hand(benchmark::RegisterBenchmark("sums/vector", sums<false>)->ArgName("R"))->Arg(52);
+  return true;
+}();
 
 }  // namespace
-}  // namespace dsc
+}  // namespace dsc::benchmarks
