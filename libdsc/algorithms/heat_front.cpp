@@ -165,8 +165,8 @@ double componentwise_residual(const SparseMatrix& A, const WideVector& w,
           if (size.mantissa == 0) continue;
           const double shrink = std::ldexp(1., 256 * std::max(-8, sum.exponent - size.exponent));
           const double residual = std::abs(sum.mantissa) * shrink / size.mantissa;
-          // Not max(): NaN must win.
-          if (!(residual <= worst)) worst = residual;
+          // Not max(): NaN must win, and stay.
+          if (!std::isnan(worst) && !(residual <= worst)) worst = residual;
         }
         return worst;
       },
