@@ -84,6 +84,7 @@ const Method kMethods[] = {
        const auto nothing = [](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = x; };
        MatrixFreeOptions options;
        options.residual = kTolerance * b.stableNorm();
+       options.max_iterations = 3000;
        const MatrixFreeSolution s =
            solve_matrix_free(product, nothing, b, Eigen::VectorXd::Zero(b.size()), options);
        return Answer{s.x, s.residual / b.stableNorm()};
@@ -183,7 +184,7 @@ TEST(HostileSystems, WithoutAnAnswerAreErrorsByEveryMethod) {
 }
 
 TEST(HostileSystems, BadlyScaledOnesHaveTheResidualPromisedOrAreErrors) {
-  const Index n = 30, N = n * n;
+  const Index n = 20, N = n * n;
   const SparseMatrix A = grid_laplacian(n, n) + 0.01 * identity(N);
   std::vector<System> systems;
   for (const double decades : {1., 3., 6., 12., 40., 80.}) {
