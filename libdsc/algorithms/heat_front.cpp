@@ -210,8 +210,8 @@ double componentwise_residual(const SparseMatrix& A, const WideVector& w,
         for (Index v = first; v < last; ++v) {
           if (!fixed.empty() && fixed[static_cast<std::size_t>(v)] != 0) continue;
           const double residual = row_residual(A, w, v, source[static_cast<std::size_t>(v)] != 0);
-          // Not max(): NaN must win.
-          if (!(residual <= worst)) worst = residual;
+          // Not max(): NaN must win, and stay.
+          if (!std::isnan(worst) && !(residual <= worst)) worst = residual;
         }
         return worst;
       },

@@ -21,7 +21,7 @@ void put(const char* text, std::size_t size) noexcept {
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool draw) : draw_(draw), due_(now_ms() + 200) {}
+ProgressBar::ProgressBar(bool draw) : draw_(draw), first_(now_ms() + 200), due_(first_) {}
 
 void ProgressBar::begin(std::string_view stage, Index total) {
   if (!draw_) return;
@@ -31,6 +31,8 @@ void ProgressBar::begin(std::string_view stage, Index total) {
   }
   done_.store(0, std::memory_order_relaxed);
   total_.store(total, std::memory_order_relaxed);
+  // At once: a stage that does not count its steps would run under the name of the one before it.
+  if (now_ms() >= first_) due_.store(0, std::memory_order_relaxed);
   draw_if_due();
 }
 

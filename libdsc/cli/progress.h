@@ -30,6 +30,7 @@ class ProgressBar final : public Monitor {
   const bool draw_;
   std::atomic<Index> done_{0};
   std::atomic<Index> total_{0};
+  const std::int64_t first_;       ///< when the bar may appear, in ms
   std::atomic<std::int64_t> due_;  ///< when to draw next, steady clock, milliseconds
   std::mutex mutex_;               ///< guards what follows
   std::string stage_;

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -20,7 +21,7 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20;
 
 /// Names of live temporaries, in static memory so that a signal handler can read them.
 struct Slot {
-  enum State : int { kFree, kClaimed, kLive };
+  enum State : int { kFree, kClaimed, kCreating, kLive };
   std::atomic<int> state{kFree};
   char name[PATH_MAX];
 };
@@ -28,15 +29,16 @@ static_assert(std::atomic<int>::is_always_lock_free);
 constexpr int kSlots = 64;
 Slot slots[kSlots];
 std::atomic<unsigned> counter{0};
+std::atomic<bool> closed{false};  ///< the process ends: no temporary may come any more
 
-/// The slot that now holds `name`, or -1 where none is free.
+/// The slot that now holds `name`, which may be created next, or -1 where none is free.
 int register_temporary(const std::string& name) {
   if (name.size() >= sizeof(Slot::name)) return -1;
   for (int i = 0; i < kSlots; ++i) {
     int expected = Slot::kFree;
     if (slots[i].state.compare_exchange_strong(expected, Slot::kClaimed)) {
       std::memcpy(slots[i].name, name.c_str(), name.size() + 1);
-      slots[i].state.store(Slot::kLive);
+      slots[i].state.store(Slot::kCreating);
       return i;
     }
   }
@@ -46,8 +48,15 @@ int register_temporary(const std::string& name) {
 }  // namespace
 
 void AtomicFile::remove_all_temporaries() noexcept {
+  closed.store(true);
   for (Slot& slot : slots) {
-    if (slot.state.load() == Slot::kLive) (void)::unlink(slot.name);
+    // Who is about to create one either has seen `closed` or is waited for, a tenth of a second at
+    // most: a file system may hang.
+    const timespec pause{0, 1'000'000};
+    for (int i = 0; i < 100 && slot.state.load() == Slot::kCreating; ++i)
+      ::nanosleep(&pause, nullptr);
+    const int state = slot.state.load();
+    if (state == Slot::kLive || state == Slot::kCreating) (void)::unlink(slot.name);
   }
 }
 
@@ -77,8 +86,13 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
     temporary_ = target_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
     slot_ = register_temporary(temporary_);  // before it exists: a signal may come at any time
     if (slot_ < 0) fail("register a temporary for", EMFILE);
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ >= 0) break;
+    file_ = closed.load()
+                ? (errno = ECANCELED, -1)
+                : ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) {
+      slots[slot_].state.store(Slot::kLive);
+      break;
+    }
     const int reason = errno;
     slots[slot_].state.store(Slot::kFree);
     slot_ = -1;

@@ -33,8 +33,9 @@ class AtomicFile {
 
   const std::string& path() const { return path_; }
 
-  /// Unlinks every live temporary of the process, for an exit from a signal handler: it only calls
-  /// unlink() on names stored beforehand. Files that are still open cannot be committed afterwards.
+  /// Unlinks every live temporary of the process and lets no new one come, for the end of the
+  /// process: while one thread removes them, another may be about to open the next. Only calls what
+  /// a signal handler may. Nothing can be committed afterwards, no AtomicFile be opened.
   static void remove_all_temporaries() noexcept;
 
  private:

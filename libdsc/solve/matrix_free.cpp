@@ -27,16 +27,8 @@ double sum(const Context& context, Index n, Body&& body) {
       [](double a, double b) { return a + b; });
 }
 
-}  // namespace
-
-MatrixFreeSolution solve_matrix_free(const LinearMap& apply, const LinearMap& precondition,
-                                     const Vector& b, Vector x, const MatrixFreeOptions& options,
-                                     const Context& context) {
-  if (!(options.residual > 0)) throw UsageError("matrix-free solve: the residual must be positive");
-  if (x.size() != b.size()) throw UsageError("matrix-free solve: the guess has another length");
-  if (!b.allFinite() || !x.allFinite()) {
-    throw SolverError("matrix-free solve: the right-hand side or the first guess is not finite");
-  }
+MatrixFreeSolution iterate(const LinearMap& apply, const LinearMap& precondition, const Vector& b,
+                           Vector x, const MatrixFreeOptions& options, const Context& context) {
   const Index n = b.size();
   Vector r(n), z(n), q(n), p = Vector::Zero(n);
   const auto true_residual = [&] {
@@ -83,9 +75,45 @@ MatrixFreeSolution solve_matrix_free(const LinearMap& apply, const LinearMap& pr
       return r[i] * r[i];
     }));
     is_true = false;
+    if (!std::isfinite(norm)) {
+      throw SolverError(
+          "conjugate gradients left the range of doubles: the matrix is not positive "
+          "definite or badly scaled");
+    }
   }
   result.x = std::move(x);
   result.residual = norm;
+  return result;
+}
+
+/// Exponents of b from here on have squares that leave the range of doubles.
+constexpr int kExtreme = 300;
+
+}  // namespace
+
+MatrixFreeSolution solve_matrix_free(const LinearMap& apply, const LinearMap& precondition,
+                                     const Vector& b, Vector x, const MatrixFreeOptions& options,
+                                     const Context& context) {
+  if (!(options.residual > 0)) throw UsageError("matrix-free solve: the residual must be positive");
+  if (x.size() != b.size()) throw UsageError("matrix-free solve: the guess has another length");
+  if (!b.allFinite() || !x.allFinite()) {
+    throw SolverError("matrix-free solve: the right-hand side or the first guess is not finite");
+  }
+  const double largest = b.size() == 0 ? 0. : b.cwiseAbs().maxCoeff();
+  const int exponent = largest == 0 ? 0 : std::ilogb(largest);
+  if (std::abs(exponent) < kExtreme) {
+    return iterate(apply, precondition, b, std::move(x), options, context);
+  }
+  // In a unit, a power of two, in which b is of size 1.
+  const auto times = [](const Vector& v, int power) -> Vector {
+    return v.unaryExpr([power](double value) { return std::ldexp(value, power); });
+  };
+  const MatrixFreeOptions scaled{std::ldexp(options.residual, -exponent), options.max_iterations};
+  MatrixFreeSolution result =
+      iterate(apply, precondition, times(b, -exponent), times(x, -exponent), scaled, context);
+  result.x = times(result.x, exponent);
+  result.residual = std::ldexp(result.residual, exponent);
+  if (!result.x.allFinite()) throw SolverError("matrix-free solve: the solution is beyond doubles");
   return result;
 }
 

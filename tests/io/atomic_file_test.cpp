@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <thread>
 
 namespace dsc {
 namespace {
@@ -87,15 +90,68 @@ TEST(AtomicFile, FoldersAndMissingFoldersAreRefusedAtOnce) {
   EXPECT_THROW(AtomicFile{""}, OutputError);
 }
 
+/// In a process of its own, since none can be opened afterwards.
+template <class Body>
+int exit_code_of(const Body& body) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    try {
+      body();
+    } catch (...) {
+      ::_exit(2);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+template <class Body>
+bool refuses(const Body& body) {
+  try {
+    body();
+    return false;
+  } catch (const OutputError&) {
+    return true;
+  }
+}
+
 TEST(AtomicFile, AnExitCanRemoveEveryTemporary) {
   const TemporaryFolder folder;
-  AtomicFile a(folder / "a");
-  AtomicFile b(folder / "b");
-  a.write("a");
-  EXPECT_EQ(entries(folder.path()), 2);
-  AtomicFile::remove_all_temporaries();
+  const int code = exit_code_of([&] {
+    AtomicFile a(folder / "a");
+    AtomicFile b(folder / "b");
+    a.write("a");
+    if (entries(folder.path()) != 2) ::_exit(3);
+    AtomicFile::remove_all_temporaries();
+    if (entries(folder.path()) != 0) ::_exit(4);
+    if (!refuses([&] { a.commit(); })) ::_exit(5);
+    if (!refuses([&] { AtomicFile late(folder / "late"); })) ::_exit(6);
+  });
+  EXPECT_EQ(code, 0);
   EXPECT_EQ(entries(folder.path()), 0);
-  EXPECT_THROW(a.commit(), OutputError);
+}
+
+TEST(AtomicFile, NoTemporaryComesWhileTheyAreRemoved) {
+  const TemporaryFolder folder;
+  for (int round = 0; round < 50; ++round) {
+    const int code = exit_code_of([&] {
+      std::vector<std::thread> writers;
+      for (int t = 0; t < 3; ++t) {
+        writers.emplace_back([&, t] {
+          for (int i = 0;; ++i) {
+            (void)refuses([&] { AtomicFile file(folder / std::to_string(100 * t + i % 100)); });
+          }
+        });
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(300 + 70 * round));
+      AtomicFile::remove_all_temporaries();
+      ::_exit(0);
+    });
+    ASSERT_EQ(code, 0);
+    ASSERT_EQ(entries(folder.path()), 0) << "round " << round;
+  }
 }
 
 TEST(AtomicFile, ManyFilesMayFollowOneAnother) {

@@ -1,6 +1,7 @@
 #include "libdsc/surface/extract.h"
 
 #include "libdsc/surface/topology.h"
+#include "tests/support/long_tests.h"
 #include "tests/support/random_volume.h"
 #include "tests/support/surface_check.h"
 
@@ -66,7 +67,7 @@ TEST(Extract, All256ConfigurationsAreSoundUnderBothAdjacencies) {
   }
 }
 
-/// 10 000 random volumes, in shards that CTest can run side by side.
+/// 10 000 random volumes, 100 000 in long runs, in shards that CTest can run side by side.
 class ExtractRandom : public ::testing::TestWithParam<unsigned> {
  protected:
   static constexpr unsigned kShards = 4;
@@ -74,7 +75,8 @@ class ExtractRandom : public ::testing::TestWithParam<unsigned> {
 INSTANTIATE_TEST_SUITE_P(Shards, ExtractRandom, ::testing::Range(0U, 4U));
 
 TEST_P(ExtractRandom, VolumesAreSoundUnderBothAdjacencies) {
-  for (unsigned seed = GetParam(); seed < 10000; seed += kShards) {
+  for (unsigned seed = GetParam(); seed < testing::usually_or_long(10000U, 100000U);
+       seed += kShards) {
     const double density = 0.1 + 0.8 * (seed % 17) / 16.0;
     const auto volume = testing::random_volume({4, 4, 4}, density, seed);
     for (const Adjacency adjacency : {Adjacency::interior, Adjacency::exterior}) {
@@ -158,7 +160,8 @@ TEST(Extract, AFullVolumeIsClosedOrOpenAtItsBorderOnRequest) {
 }
 
 TEST_P(ExtractRandom, PartsAreSound) {
-  for (unsigned seed = GetParam(); seed < 3000; seed += kShards) {
+  for (unsigned seed = GetParam(); seed < testing::usually_or_long(3000U, 30000U);
+       seed += kShards) {
     const auto volume = testing::random_volume({4, 4, 4}, 0.3 + 0.1 * (seed % 5), seed);
     const auto kept = [seed](const Cell& c) {
       const unsigned hash = static_cast<unsigned>(c[0] * 73 + c[1] * 179 + c[2] * 283) + seed;

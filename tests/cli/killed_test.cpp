@@ -1,0 +1,199 @@
+// Runs that end at any moment or whose disk, folder or permission goes: the old file or the new
+// one, whole, and an exit code other than 0 unless it is the new one.
+#include "tests/cli/program.h"
+#include "tests/support/long_tests.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace dsc::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+using Clock = std::chrono::steady_clock;
+
+const Words kJob = {"surface", "shape:sphere", "--gridstep", "0.01", "--quiet"};
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+bool is_temporary(const std::string& name) { return name.find(".tmp-") != std::string::npos; }
+
+/// Waits until a temporary is in `folder`. False where the program has ended before.
+bool wait_for_temporary(const Folder& folder, int child) {
+  while (true) {
+    const Words names = folder.names();
+    if (std::any_of(names.begin(), names.end(), is_temporary)) return true;
+    const std::string status = read_file("/proc/" + std::to_string(child) + "/stat");
+    if (status.substr(status.rfind(')') + 2, 1) == "Z") return false;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+}
+
+TEST(Killed, AtAnyMomentTheOldFileOrTheNewOneIsThereWhole) {
+  const int runs = testing::usually_or_long(40, 1000);
+  std::mt19937 random(1);
+  int killed = 0, killed_while_writing = 0, new_files = 0;
+  for (const std::string name : {"s.ply", "s.vtp"}) {
+    const Folder whole;
+    const auto start = Clock::now();
+    ASSERT_EQ(run_dsc(with(kJob, {"-o", whole / name})).exit_code, 0);
+    const auto duration = Clock::now() - start;
+    const std::string truth = read_file(whole / name);
+    const Folder folder;  // one for all runs: what one leaves must not harm the next
+    for (int run = 0; run < runs / 2; ++run) {
+      const bool there = run % 2 == 0;
+      fs::remove(folder / name);
+      if (there) write_file(folder / name, "old");
+      if (run % 10 != 9) {
+        for (const std::string& left : folder.names()) {
+          if (is_temporary(left)) fs::remove(folder / left);
+        }
+      }
+      const Words before = folder.names();
+      // Half of them while the file is written, which takes a small part of the time.
+      const bool at_the_file = run % 4 < 2;
+      const double part =
+          std::uniform_real_distribution<double>(0, at_the_file ? 0.15 : 1.1)(random);
+      const Outcome outcome = run_dsc(with(kJob, {"-o", folder / name}), {}, [&](int child) {
+        if (at_the_file && std::none_of(before.begin(), before.end(), is_temporary)) {
+          wait_for_temporary(folder, child);
+        }
+        std::this_thread::sleep_for(part * duration);
+        ::kill(child, SIGKILL);
+      });
+      ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 128 + SIGKILL) << outcome.err;
+      killed += outcome.exit_code != 0 ? 1 : 0;
+      const Words after = folder.names();
+      killed_while_writing += std::count_if(after.begin(), after.end(), is_temporary) >
+                                      std::count_if(before.begin(), before.end(), is_temporary)
+                                  ? 1
+                                  : 0;
+      const bool exists = fs::exists(folder / name);
+      const std::string content = exists ? read_file(folder / name) : "";
+      const bool is_new = content == truth;
+      new_files += is_new ? 1 : 0;
+      ASSERT_TRUE(is_new || (there ? content == "old" : !exists))
+          << "run " << run << ": " << content.size();
+      ASSERT_TRUE(is_new || outcome.exit_code != 0) << "run " << run;
+      for (const std::string& left : after) ASSERT_TRUE(left == name || is_temporary(left)) << left;
+    }
+    EXPECT_EQ(run_dsc(with(kJob, {"-o", folder / name})).exit_code, 0);
+    EXPECT_TRUE(read_file(folder / name) == truth);
+  }
+  std::printf("%d runs: %d killed, %d of them with a file under way; %d new files\n", runs, killed,
+              killed_while_writing, new_files);
+  EXPECT_GT(killed_while_writing, runs / 10);  // else nothing was tried
+}
+
+/// A small disk of its own; needs root.
+class SmallDisk {
+ public:
+  explicit SmallDisk(const std::string& path, const char* size) : path_(path) {
+    ::mkdir(path.c_str(), 0777);
+    there_ = ::mount("tmpfs", path.c_str(), "tmpfs", 0, size) == 0;
+  }
+  ~SmallDisk() {
+    if (there_) ::umount2(path_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool there() const { return there_; }
+
+ private:
+  std::string path_;
+  bool there_;
+};
+
+TEST(Killed, AFullDiskKeepsTheOldFile) {
+  const Folder folder;
+  const SmallDisk disk(folder / "disk", "size=2m");
+  if (!disk.there()) GTEST_SKIP() << "no disk can be mounted here; root may";
+  for (const std::string ending : {"ply", "vtp", "csv", "off", "obj", "stl", "om"}) {
+    const std::string path = folder / ("disk/s." + ending);
+    write_file(path, "old");
+    const Outcome outcome = run_dsc(with(kJob, {"-o", path}));
+    EXPECT_EQ(outcome.exit_code, 3) << ending;
+    EXPECT_NE(outcome.err.find("s." + ending), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("No space left"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read_file(path), "old");
+    fs::remove(path);
+    EXPECT_TRUE(fs::is_empty(folder / "disk")) << ending;
+  }
+}
+
+TEST(Killed, AReportThatCannotBeWrittenIsAnErrorAfterWholeResults) {
+  const Folder folder;
+  ASSERT_EQ(::symlink("/dev/full", (folder / "r.json").c_str()), 0);
+  const Outcome outcome = run_dsc({"surface", "shape:sphere", "--gridstep", "0.1", "-o",
+                                   folder / "s.ply", "--report", folder / "r.json"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("r.json"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(folder.names(), (Words{"r.json", "s.ply"}));
+}
+
+/// The checks before the run have passed; the folder goes later.
+TEST(Killed, AFolderThatVanishesOrIsShutMeanwhileIsAnError) {
+  constexpr uid_t kNobody = 65534;
+  const bool root = ::geteuid() == 0;
+  for (const std::string how : {"removed", "moved", "shut"}) {
+    for (const bool writing : {false, true}) {
+      if (how == "shut" && writing) continue;  // a file that is open stays so
+      const Folder folder;
+      const Folder sub_of;  // watched through its own names
+      const std::string target = sub_of / "";
+      ::chmod(target.c_str(), 0777);
+      write_file(sub_of / "s.ply", "old");
+      ::chmod((sub_of / "s.ply").c_str(), 0666);
+      const auto in_child = [&] {
+        if (how == "shut" && root && ::setuid(kNobody) != 0) ::_exit(126);
+      };
+      bool in_time = true;
+      const std::string moved = folder / "moved";
+      const Outcome outcome =
+          run_dsc(with(kJob, {"-o", sub_of / "s.ply"}), in_child, [&](int child) {
+            if (writing) {
+              in_time = wait_for_temporary(sub_of, child);
+            } else {
+              std::this_thread::sleep_for(std::chrono::milliseconds(60));
+            }
+            const std::string from = target.substr(0, target.size() - 1);
+            if (how == "removed") fs::remove_all(from);
+            if (how == "moved") fs::rename(from, moved);
+            if (how == "shut") ::chmod(from.c_str(), 0555);
+          });
+      if (outcome.exit_code == 126 || outcome.exit_code == 127) continue;  // no other user here
+      const bool gone = !fs::exists(sub_of / "s.ply");
+      const std::string old_place = how == "moved" ? moved + "/s.ply" : sub_of / "s.ply";
+      const std::string content = fs::exists(old_place) ? read_file(old_place) : "";
+      if (outcome.exit_code == 0) {  // it was faster
+        EXPECT_GT(content.size(), 1000000U) << how;
+      } else {
+        EXPECT_EQ(outcome.exit_code, 3) << how << ": " << outcome.err;
+        EXPECT_NE(outcome.err.find("s.ply"), std::string::npos) << outcome.err;
+        EXPECT_TRUE(how == "removed" ? gone : content == "old") << how;
+        EXPECT_TRUE(in_time);
+      }
+      ::chmod(target.c_str(), 0777);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dsc::test

@@ -1,0 +1,49 @@
+# cmake -DNM=<nm> -DLIBRARIES=<library>;… -DALLOWED=<object>:<symbol>;… -P check_symbols.cmake
+#
+# A library never writes to standard output or error and never ends the process. Fails, naming object
+# and symbol, on each undefined symbol that could, unless ALLOWED has it.
+cmake_minimum_required(VERSION 3.25)
+
+# Formatting into memory (snprintf) is no output.
+set(forbidden
+  # output
+  "(__)?(v?f?w?printf|vf?wprintf)(_chk)?" "puts" "putchar" "putc" "fputs" "fputc" "perror" "psignal" "syslog"
+  "stdout" "stderr" "_ZSt4cout" "_ZSt4cerr" "_ZSt4clog" "_ZSt5wcout" "_ZSt5wcerr" "_ZN3fmt.*5print.*"
+  "_Z5omoutv" "_Z5omerrv" "_Z5omlogv" "_ZSt4cinE?"
+  # the end of the process
+  "exit" "_exit" "_Exit" "quick_exit" "abort" "_ZSt9terminatev" "raise" "kill" "system" "execv[pe]*" "fork")
+
+set(problems "")
+set(count 0)
+foreach(library IN LISTS LIBRARIES)
+  execute_process(COMMAND ${NM} -A -u -P ${library} OUTPUT_VARIABLE text RESULT_VARIABLE result ERROR_QUIET)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${NM} cannot read ${library}")
+  endif()
+  string(REPLACE ";" "," text "${text}")
+  string(REPLACE "[" "(" text "${text}")
+  string(REPLACE "]" ")" text "${text}")
+  string(REPLACE "\n" ";" lines "${text}")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "[(/:]([A-Za-z_0-9]+)\\.cpp\\.o\\)?: ([^ ]+) [Uw]")
+      continue()
+    endif()
+    set(object ${CMAKE_MATCH_1})
+    string(REGEX REPLACE "@.*" "" symbol "${CMAKE_MATCH_2}")
+    math(EXPR count "${count} + 1")
+    foreach(pattern IN LISTS forbidden)
+      if(symbol MATCHES "^(${pattern})$" AND NOT "${object}:${symbol}" IN_LIST ALLOWED)
+        list(APPEND problems "${object}.cpp uses ${symbol}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(count LESS 10)
+  message(FATAL_ERROR "${count} undefined symbols in ${LIBRARIES}: this check does not read them")
+endif()
+if(problems)
+  list(REMOVE_DUPLICATES problems)
+  list(JOIN problems "\n  " text)
+  message(FATAL_ERROR "the library may print or end the process:\n  ${text}")
+endif()
+message(STATUS "none of ${count} undefined symbols prints or ends the process")
