@@ -42,7 +42,7 @@ struct GeodesicOptions {
   HeatBoundary boundary = HeatBoundary::mixed;
   HeatMethod method = HeatMethod::automatic;
   /// The solver of Poisson's equation; its tolerance is that of the distance's gradient.
-  SolverOptions poisson{SolverMethod::automatic, 1e-6};
+  SolverOptions poisson{SolverMethod::automatic, 1e-5};
   /// Makes the solvers; empty: make_spd_solver.
   SpdSolverFactory factory;
 };
