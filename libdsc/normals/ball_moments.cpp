@@ -12,13 +12,19 @@ namespace {
 
 __extension__ using Wide = __int128;
 
+/// The same rounding, sooner where 64 bits hold it.
+double to_double(Wide value) {
+  const auto low = static_cast<Index>(value);
+  return low == value ? static_cast<double>(low) : static_cast<double>(value);
+}
+
 }  // namespace
 
 Mat3 covariance(const BallMoments& m, const Vec3& spacing) {
   if (m.count == 0) return Mat3::Zero();
   const auto entry = [&](std::size_t second, std::size_t a, std::size_t b) {
     const Wide centred = Wide{m.count} * m.second[second] - Wide{m.first[a]} * m.first[b];
-    return static_cast<double>(centred) / static_cast<double>(m.count);
+    return to_double(centred) / static_cast<double>(m.count);
   };
   Mat3 v;
   v << entry(0, 0, 0), entry(3, 0, 1), entry(4, 0, 2),  //

@@ -2,6 +2,7 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/parallel.h"
+#include "libdsc/normals/brick_scan.h"
 #include "libdsc/normals/flattest_direction.h"
 
 namespace dsc {
@@ -15,9 +16,19 @@ Index visit_balls(const BinaryVolume& volume, std::span<const Surfel> surfels,
                   const IntegralInvariantOptions& options, const BallVisitor& visit,
                   const Context& context) {
   const bool pair = options.centre == BallCentre::voxel_pair;
+  const bool continued = options.beyond == Beyond::continued;
+  const Ball ball(options.radius, volume.grid().spacing);
+  if (!pair && !continued && bricks_pay(ball, surfels)) {
+    brick_scan(
+        volume, ball, surfels,
+        [&](Index i, const BallMoments& moments) {
+          visit(i, {&moments, 1});
+        },
+        context);
+    return 0;
+  }
   using Centres = BallScanner::Centres;
   const BallScanner scan(volume, options.radius, pair ? Centres::voxels : Centres::surfels);
-  const bool continued = options.beyond == Beyond::continued;
   const auto moments = [&](const Index3& centre, bool& cut) {
     if (!continued) return scan(centre);
     bool this_one = false;

@@ -64,7 +64,9 @@ std::string results(const std::string& benchmarks, const std::string& program,
       "eigenvalues.\n\n" +
       stages_table(figures) + "\n";
   text +=
-      "## Normals\n\n`sums` are the moments of the balls alone, on one thread; `normals` the whole "
+      "## Normals\n\n`sums` are the moments of the balls alone, on one thread, by bricks or by "
+      "rows as the estimator chooses; "
+      "`normals` is the whole "
       "estimator, on every core (threads:0) or one.\n\n" +
       normals_table(figures) + "\n";
   text += "## Whole jobs\n\n" + jobs_table(jobs);

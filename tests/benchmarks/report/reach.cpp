@@ -48,7 +48,7 @@ void normals(const Figures& figures, Rows& rows) {
   for (const int radius : {6, 12, 24}) {
     const double target = radius >= 12 ? 1.5 : 2.5;
     for (const auto& [what, name] :
-         {std::pair{"the sums", fmt::format("sums/vector/R:{}", radius)},
+         {std::pair{"the sums", fmt::format("sums/R:{}", radius)},
           std::pair{"the whole estimator, two threads",
                     fmt::format("normals/R:{}/n:193/threads:0", radius)}}) {
       const Figure* f = figures.find(name);
