@@ -314,5 +314,55 @@ TEST(Interrupt, AtRandomMomentsLeavesWholeFilesOnly) {
   EXPECT_LT(longest, kLimit);
 }
 
+/// A second signal does not wait until the run has ended by itself.
+TEST(Interrupt, ASecondSignalWhileAFileIsWrittenLeavesNothing) {
+  int tried = 0;
+  for (int round = 0; round < 12; ++round) {
+    const Folder folder;
+    bool writing = false;
+    const Outcome outcome = run_dsc(
+        {"surface", "shape:sphere", "--gridstep", "0.006", "--quiet", "-o", folder / "r.csv"}, {},
+        [&](int child) {
+          while (!has_ended(child) && !writing) {
+            for (const std::string& name : folder.names()) writing = name != "r.csv";
+          }
+          std::this_thread::sleep_for(std::chrono::milliseconds(round));
+          ::kill(child, SIGINT);
+          std::this_thread::sleep_for(std::chrono::microseconds(200));
+          ::kill(child, SIGINT);
+        });
+    if (outcome.exit_code == 0) continue;
+    ++tried;
+    EXPECT_EQ(outcome.exit_code, 130);
+    for (const std::string& name : folder.names()) EXPECT_EQ(name, "r.csv") << "was left";
+  }
+  EXPECT_GT(tried, 3);
+}
+
+/// The process that reads medical images ends with the program.
+TEST(Interrupt, EndsTheImageReaderToo) {
+  const Folder folder;
+  write_file(folder / "v.mha", "ObjectType = Image\n");
+  write_file(folder / "reader", "#!/bin/sh\necho $$ > '" + folder / "pid" + "'\nexec sleep 100\n");
+  fs::permissions(folder / "reader", fs::perms::owner_all);
+  int reader = 0;
+  Clock::time_point sent;
+  const Outcome outcome = run_dsc(
+      {"info", folder / "v.mha"},
+      [&] { ::setenv("DSC_IMAGE_READER", (folder / "reader").c_str(), 1); },
+      [&](int child) {
+        while (!has_ended(child) && reader == 0) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          if (fs::exists(folder / "pid")) reader = std::atoi(read_file(folder / "pid").c_str());
+        }
+        sent = Clock::now();
+        ::kill(child, SIGINT);
+      });
+  EXPECT_LT(Clock::now() - sent, kLimit);
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  ASSERT_GT(reader, 0);
+  EXPECT_NE(::kill(reader, 0), 0) << "the reader goes on";
+}
+
 }  // namespace
 }  // namespace dsc::test
