@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/base/parallel.h"
 #include "libdsc/calculus/assembly.h"
+#include "libdsc/solve/checkerboard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,9 @@ HeatDiffusion::HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOpti
     throw UsageError("diffusion: after the time " + std::to_string(t) +
                      " heat is even to the last digit; choose a shorter one");
   }
-  if (rounding > options.solver.tolerance) components_ = connected_components(mesh);
+  if (rounding > options.solver.tolerance) {
+    components_ = kernel_classes(mesh, options.calculus.stabilization);
+  }
   weight_ = system.mass;
   for (double& w : weight_) {
     if (w == 0) w = 1;
@@ -76,25 +79,14 @@ Solution HeatDiffusion::step(const Eigen::VectorXd& u0) const {
   if (components_.count() == 0) return solver_->solve(weight_.cwiseProduct(u0), u0);
   // The means stay as they are, and what varies around them is solved for alone: t L times a large
   // constant would be rounding only.
-  const Eigen::VectorXd mean = component_means(u0);
+  const Eigen::VectorXd means = component_means(components_, weight_, u0);
+  Eigen::VectorXd mean(u0.size());
+  for (Index v = 0; v < u0.size(); ++v) {
+    mean[v] = means[components_.of_vertex[static_cast<std::size_t>(v)]];
+  }
   Solution s = solver_->solve(weight_.cwiseProduct(u0 - mean));
   s.x += mean;
   return s;
-}
-
-Eigen::VectorXd HeatDiffusion::component_means(const Eigen::VectorXd& u) const {
-  Eigen::VectorXd heat = Eigen::VectorXd::Zero(components_.count());
-  Eigen::VectorXd mass = Eigen::VectorXd::Zero(components_.count());
-  const auto component = [&](Index v) {
-    return components_.of_vertex[static_cast<std::size_t>(v)];
-  };
-  for (Index v = 0; v < u.size(); ++v) {
-    heat[component(v)] += weight_[v] * u[v];
-    mass[component(v)] += weight_[v];
-  }
-  Eigen::VectorXd mean(u.size());
-  for (Index v = 0; v < u.size(); ++v) mean[v] = heat[component(v)] / mass[component(v)];
-  return mean;
 }
 
 Solution diffuse(const FlatMesh& mesh, const Eigen::VectorXd& u0, double t,

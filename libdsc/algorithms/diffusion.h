@@ -2,7 +2,8 @@
 /// Heat diffusion on a surface: one implicit Euler step, (M0 - t L) u = M0 u0.
 ///
 /// Heat is conserved, Σ M0 u = Σ M0 u0; constants stay; u tends to the mean of each component as t
-/// grows. A vertex that no face uses keeps its value.
+/// grows. A vertex that no face uses keeps its value. With Stabilization::mercat checkerboards stay
+/// too, and half of a point source is one: diffuse smooth functions only.
 #pragma once
 
 #include "libdsc/calculus/options.h"
@@ -42,8 +43,6 @@ class HeatDiffusion {
   Index clamped_faces() const { return clamped_faces_; }
 
  private:
-  Eigen::VectorXd component_means(const Eigen::VectorXd& u) const;
-
   double time_;
   Components components_;  ///< known only where t is so long that the means are split off
   Eigen::VectorXd mass_;

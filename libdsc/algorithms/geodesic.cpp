@@ -9,6 +9,7 @@
 #include "libdsc/calculus/assembly.h"
 #include "libdsc/calculus/field_operators.h"
 #include "libdsc/solve/boundary.h"
+#include "libdsc/solve/checkerboard.h"
 #include "libdsc/solve/dirichlet.h"
 
 #include <algorithm>
@@ -68,20 +69,25 @@ struct GeodesicSolver::Data {
   FlatMesh mesh;
   GeodesicOptions options;
   LaplaceSystem system;
+  Eigen::VectorXd weight;  ///< mass, but 1 at vertices without faces
   Components components;
   std::vector<char> boundary;  ///< empty: nowhere held at 0
   double time = 0;
   double hop = 0;  ///< what a breadth-first level advances at least, roughly
   HeatMethod method = HeatMethod::direct;
-  SparseMatrix heat;  ///< M0 - t L
+  LaplaceSystem diffused;  ///< that of the heat
+  SparseMatrix heat;       ///< M0 - t L
   DirectHeat direct;
   std::unique_ptr<NeumannSolver> poisson;
+  std::optional<CheckerboardFilter> filter;  ///< mercat's
   double seconds_assemble = 0;
   double seconds_factorize = 0;
 
+  const LaplaceSystem& of_heat() const { return filter ? diffused : system; }
+
   DirectHeat factorize(double t, const Context& context) const {
     DirectHeat h;
-    h.A = heat_matrix(system, t, context);
+    h.A = heat_matrix(of_heat(), t, context);
     h.reflected = make_solver(options.factory, h.A, {}, context);
     if (!boundary.empty())
       h.absorbed = make_solver(options.factory, hold(h.A, boundary), {}, context);
@@ -174,7 +180,15 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   data->options = options;
   context.begin("assemble");
   data->system = assemble_laplacian(mesh, options.calculus, context);
+  data->weight = (data->system.mass.array() > 0).select(data->system.mass, 1.);
   data->components = connected_components(mesh);
+  Components classes = kernel_classes(mesh, options.calculus.stabilization);
+  if (options.calculus.stabilization == Stabilization::mercat) {
+    CalculusOptions stabilised = options.calculus;
+    stabilised.stabilization = Stabilization::de_goes;
+    data->diffused = assemble_laplacian(mesh, stabilised, context);
+    data->filter.emplace(mesh, options.calculus, context);
+  }
   if (options.boundary == HeatBoundary::mixed) {
     data->boundary = boundary_vertices(mesh);
     if (std::none_of(data->boundary.begin(), data->boundary.end(), [](char b) { return b != 0; })) {
@@ -195,9 +209,9 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   if (data->method == HeatMethod::direct) {
     data->direct = data->factorize(data->time, context);
   }
-  data->heat =
-      data->direct.A.size() != 0 ? data->direct.A : heat_matrix(data->system, data->time, context);
-  data->poisson = std::make_unique<NeumannSolver>(-data->system.L, data->components,
+  data->heat = data->direct.A.size() != 0 ? data->direct.A
+                                          : heat_matrix(data->of_heat(), data->time, context);
+  data->poisson = std::make_unique<NeumannSolver>(-data->system.L, std::move(classes),
                                                   options.poisson, context, options.factory);
   data->seconds_factorize = seconds_since(factorize);
   data_ = std::move(data);
@@ -270,6 +284,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
   report.poisson_residual = phi.relative_residual;
   report.poisson_iterations = phi.iterations;
   result.distance = std::move(phi.x);
+  if (d.filter) d.filter->remove(result.distance, d.weight);
   anchor_sources(result.distance, d.heat, w, sources);
 
   for (Index v = 0; v < n; ++v) {

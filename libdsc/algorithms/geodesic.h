@@ -11,6 +11,10 @@
 /// Two ways to diffuse the heat. `direct` factorizes M0 - t L once and then serves any sources;
 /// `bands` follows the front of each set of sources (heat_front.h), in linear time and little
 /// memory. Both give the same distances to about 1e-3 of the gridstep.
+///
+/// With Stabilization::mercat Poisson's equation alone is solved with λ_f = 0, and its solution
+/// comes without checkerboards. Heat is diffused with CalculusOptions::lambda: half of a point
+/// source is a checkerboard, which λ_f = 0 would leave where it is.
 #pragma once
 
 #include "libdsc/calculus/options.h"

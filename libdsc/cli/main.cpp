@@ -12,6 +12,7 @@
 #include <memory>
 #include <new>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace dsc::cli {
@@ -63,6 +64,13 @@ void run_and_report(const Options& options, ProgressBar& bar) {
   }
 }
 
+/// What may have made a solver fail.
+std::string advice(const Options& o) {
+  const double lambda = o.command == Command::curvature ? o.curvature_lambda : o.lambda;
+  if (!o.given("--lambda") || (lambda >= 1e-4 && lambda <= 10)) return "";
+  return fmt::format("; --lambda {:g} is far from (0, 1], try one of that size", lambda);
+}
+
 int run_program(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(argc, argv);
   if (line.text) {
@@ -74,6 +82,9 @@ int run_program(int argc, const char* const* argv) {
   watch_signals(bar);
   try {
     run_and_report(line.options, *bar);
+  } catch (const SolverError& error) {
+    bar->clear();
+    throw SolverError(error.what() + advice(line.options));
   } catch (...) {
     bar->clear();
     throw;

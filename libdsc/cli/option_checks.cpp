@@ -14,6 +14,16 @@ namespace {
 
 /// An option that could change nothing was meant to: it is named with the one that makes it idle.
 void check_have_effect(const Options& o) {
+  if (o.given("--lambda") && o.stabilisation != Stabilization::de_goes &&
+      o.command != Command::geodesic) {
+    throw UsageError(std::string("--lambda is the weight of --stabilisation de-goes; ") +
+                     name_of(o.stabilisation) + " has its own, leave one of them out");
+  }
+  if (o.command == Command::diffuse && o.stabilisation == Stabilization::mercat) {
+    throw UsageError(
+        "--stabilisation mercat leaves checkerboards as they are, and half of a point source is "
+        "one; choose another to diffuse it");
+  }
   const bool balls = o.estimator == Estimator::integral_invariant;
   for (const char* option : {"--estimator", "--radius", "--centre"}) {
     if (!o.given(option)) continue;

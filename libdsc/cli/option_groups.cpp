@@ -129,13 +129,26 @@ void add_normals(CLI::App& app, Options& o) {
   name_group(app, "Normals");
 }
 
-void add_calculus(CLI::App& app, Options& o) {
+void add_calculus(CLI::App& app, Options& o, bool laplacian) {
   add_normals(app, o);
   add_choice(app, "--calculus", o.projected, {{"projected", true}, {"naive", false}},
              "operators on faces projected along the estimated normals, or on the surfels as they "
              "are (default: projected; for a mesh naive, unless its file has normals)")
       ->each([&o](const std::string&) { o.calculus_given = true; });
-  add_positive(app, "--lambda", o.lambda, "weight of the stabilisation (default: 0.25)");
+  if (laplacian) {
+    add_choice(
+        app, "--stabilisation", o.stabilisation,
+        {{"de-goes", Stabilization::de_goes},
+         {"mercat", Stabilization::mercat},
+         {"elements", Stabilization::corrected_elements},
+         {"refinement", Stabilization::virtual_refinement}},
+        "what weighs the part of a 1-form that no tangent vector explains: the number of "
+        "--lambda; nothing, and checkerboards are taken out of the results; or what bilinear "
+        "finite elements or triangles around a virtual centre weigh it with, on voxels only "
+        "(default: de-goes)");
+    add_positive(app, "--lambda", o.lambda,
+                 "weight of the stabilisation de-goes, best in (0, 1] (default: 0.25)");
+  }
   name_group(app, "Calculus");
 }
 

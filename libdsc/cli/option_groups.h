@@ -14,8 +14,8 @@ void add_input(CLI::App& app, Options& o);
 void add_run(CLI::App& app, Options& o, bool writes);
 /// How normals are estimated.
 void add_normals(CLI::App& app, Options& o);
-/// The same, and how operators are made from them.
-void add_calculus(CLI::App& app, Options& o);
+/// The same, and how operators are made from them, the Laplacian too or not.
+void add_calculus(CLI::App& app, Options& o, bool laplacian);
 /// Points and vertices as sources. The caller names the group.
 void add_sources(CLI::App& app, Options& o);
 

@@ -70,7 +70,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->type_name("EXPR")
       ->required();
   name_group(gradient, "Function");
-  add_calculus(gradient, o);
+  add_calculus(gradient, o, false);
   add_run(gradient, o, true);
 
   CLI::App& diffuse = add_command(app, o, Command::diffuse, "let heat spread from sources");
@@ -78,7 +78,7 @@ void add_commands(CLI::App& app, Options& o) {
   add_positive(diffuse, "--time", o.time, "time of the one implicit step, world units squared")
       ->required();
   name_group(diffuse, "Heat");
-  add_calculus(diffuse, o);
+  add_calculus(diffuse, o, true);
   add_run(diffuse, o, true);
 
   CLI::App& geodesic =
@@ -96,7 +96,7 @@ void add_commands(CLI::App& app, Options& o) {
               {"bands", DistanceMethod::bands}},
              "how heat is solved for: at once, or band after band along its front (default: auto)");
   name_group(geodesic, "Distance");
-  add_calculus(geodesic, o);
+  add_calculus(geodesic, o, true);
   add_run(geodesic, o, true);
 
   CLI::App& spectrum = add_command(app, o, Command::spectrum,
@@ -105,7 +105,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
   name_group(spectrum, "Spectrum");
-  add_calculus(spectrum, o);
+  add_calculus(spectrum, o, true);
   add_run(spectrum, o, true);
 
   add_curvature(add_command(app, o, Command::curvature, "estimate how the surface bends"), o);
@@ -120,7 +120,7 @@ void add_commands(CLI::App& app, Options& o) {
                "unit size (default: not at all)")
       ->type_name("T");
   name_group(laplacian, "Function");
-  add_calculus(laplacian, o);
+  add_calculus(laplacian, o, true);
   add_run(laplacian, o, true);
 
   CLI::App& poisson =
@@ -134,7 +134,7 @@ void add_commands(CLI::App& app, Options& o) {
                   "the boundary is 0)")
       ->type_name("EXPR");
   name_group(poisson, "Equation");
-  add_calculus(poisson, o);
+  add_calculus(poisson, o, true);
   add_run(poisson, o, true);
 }
 
@@ -217,6 +217,20 @@ const char* name_of(Estimator estimator) {
       return "trivial";
     case Estimator::analytic:
       return "analytic";
+  }
+  return "";
+}
+
+const char* name_of(Stabilization stabilisation) {
+  switch (stabilisation) {
+    case Stabilization::de_goes:
+      return "de-goes";
+    case Stabilization::mercat:
+      return "mercat";
+    case Stabilization::corrected_elements:
+      return "elements";
+    case Stabilization::virtual_refinement:
+      return "refinement";
   }
   return "";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libdsc/base/types.h"
+#include "libdsc/calculus/options.h"
 #include "libdsc/io/volume_source.h"
 #include "libdsc/normals/curvature.h"
 #include "libdsc/normals/integral_invariant.h"
@@ -62,6 +63,7 @@ struct Options {
   std::optional<double> radius;  ///< world units
   bool projected = true;         ///< false: the naive calculus
   bool calculus_given = false;   ///< else a mesh file decides by its normals
+  Stabilization stabilisation = Stabilization::de_goes;
   double lambda = 0.25;
 
   // what is computed
@@ -104,5 +106,7 @@ CommandLine parse_command_line(int argc, const char* const* argv);
 const char* name_of(Command command);
 /// The estimator's name as typed.
 const char* name_of(Estimator estimator);
+/// The stabilisation's name as typed.
+const char* name_of(Stabilization stabilisation);
 
 }  // namespace dsc::cli

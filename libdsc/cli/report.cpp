@@ -59,15 +59,19 @@ Json json_of(const NormalsReport& normals) {
 }
 
 Json json_of(const CalculusReport& calculus) {
-  return {{"kind", calculus.projected ? "projected" : "naive"},
-          {"lambda", number(calculus.lambda)},
-          {"clamped_faces", calculus.clamped_faces}};
+  Json json = {{"kind", calculus.projected ? "projected" : "naive"},
+               {"stabilisation", calculus.stabilisation}};
+  if (calculus.lambda) json["lambda"] = number(*calculus.lambda);
+  json["clamped_faces"] = calculus.clamped_faces;
+  return json;
 }
 
 Json json_of(const SpectrumReport& spectrum) {
-  return {{"eigenvalues", spectrum.eigenvalues},
-          {"residual", number(spectrum.residual)},
-          {"rounds", spectrum.rounds}};
+  Json json = {{"eigenvalues", spectrum.eigenvalues},
+               {"residual", number(spectrum.residual)},
+               {"rounds", spectrum.rounds}};
+  if (spectrum.checkerboards) json["checkerboards_left_out"] = *spectrum.checkerboards;
+  return json;
 }
 
 Json json_of(const PositionsReport& positions) {

@@ -42,7 +42,8 @@ struct NormalsReport {
 
 struct CalculusReport {
   bool projected = true;
-  double lambda = 0;
+  std::string stabilisation;     ///< as typed
+  std::optional<double> lambda;  ///< where it is one number for all faces
   Index clamped_faces = 0;
 };
 
@@ -56,7 +57,7 @@ struct PositionsReport {
 
 struct PoissonReport {
   Index fixed_vertices = 0;      ///< with a given value
-  Index free_components = 0;     ///< without one; the solution has mean zero there
+  Index free_components = 0;     ///< without one (with mercat: parities); mean zero there
   double removed_mean = 0;       ///< the largest that was taken from the right-hand side of one
   double relative_residual = 0;  ///< of the linear system
 };
@@ -65,6 +66,7 @@ struct SpectrumReport {
   std::vector<double> eigenvalues;  ///< ascending
   double residual = 0;              ///< as in Spectrum
   Index rounds = 0;
+  std::optional<Index> checkerboards;  ///< left out below the last one, where there may be any
 };
 
 /// Wall-clock seconds; 0 for a stage that was not needed. The stages sum to the total, but for what

@@ -157,6 +157,7 @@ FlatMesh flat_mesh(const Scene& scene, const Run& run) {
 CalculusOptions calculus_options(const Run& run) {
   CalculusOptions options;
   options.lambda = run.options.lambda;
+  options.stabilization = run.options.stabilisation;
   return options;
 }
 
@@ -173,7 +174,14 @@ Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options) 
 }
 
 void note_calculus(Index clamped_faces, Run& run) {
-  run.report.calculus = CalculusReport{run.projected(), run.options.lambda, clamped_faces};
+  note_calculus(run.projected(), calculus_options(run), clamped_faces, run);
+}
+
+void note_calculus(bool projected, const CalculusOptions& options, Index clamped_faces, Run& run) {
+  run.report.calculus =
+      CalculusReport{projected, name_of(options.stabilization), {}, clamped_faces};
+  if (options.stabilization == Stabilization::de_goes) run.report.calculus->lambda = options.lambda;
+  if (options.stabilization == Stabilization::mercat) run.report.calculus->lambda = 0;
 }
 
 std::vector<VertexId> find_sources(const Scene& scene, Run& run) {

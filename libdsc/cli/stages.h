@@ -55,6 +55,7 @@ Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options);
 
 /// Puts the calculus into the report.
 void note_calculus(Index clamped_faces, Run& run);
+void note_calculus(bool projected, const CalculusOptions& options, Index clamped_faces, Run& run);
 
 /// The vertex ids of the options' sources: the vertex nearest to each point of the world, lowest id
 /// first among equals, and the ids given. Sorted, each once. \throws UsageError for an id that the

@@ -96,11 +96,11 @@ std::string summary(const Report& report) {
   if (report.surface) text += line("surface", text_of(*report.surface));
   if (report.normals) text += line("normals", text_of(*report.normals));
   if (report.calculus) {
+    const CalculusReport& c = *report.calculus;
+    const std::string weight = c.lambda ? fmt::format("lambda {:g}", *c.lambda) : c.stabilisation;
     text +=
-        line("calculus",
-             fmt::format("{}, lambda {:g}, {}", report.calculus->projected ? "projected" : "naive",
-                         report.calculus->lambda,
-                         counted(report.calculus->clamped_faces, "clamped face", "clamped faces")));
+        line("calculus", fmt::format("{}, {}, {}", c.projected ? "projected" : "naive", weight,
+                                     counted(c.clamped_faces, "clamped face", "clamped faces")));
   }
   if (report.spectrum) {
     constexpr std::size_t kShown = 16;
@@ -112,6 +112,10 @@ std::string summary(const Report& report) {
       values += fmt::format("{}{:.5g}", k == 0 ? "" : ", ", value);
     }
     if (all.size() > kShown) values += ", ...";
+    if (report.spectrum->checkerboards) {
+      values += fmt::format("; {} between them left out", counted(*report.spectrum->checkerboards,
+                                                                  "checkerboard", "checkerboards"));
+    }
     text += line("spectrum", values);
   }
   if (report.positions) {
@@ -125,10 +129,13 @@ std::string summary(const Report& report) {
   }
   if (report.poisson) {
     const PoissonReport& p = *report.poisson;
+    const bool mercat = report.calculus && report.calculus->stabilisation == "mercat";
     std::string values = counted(p.fixed_vertices, "fixed vertex", "fixed vertices");
     if (p.free_components > 0) {
       values += fmt::format(", {} without one, mean {:.4g} removed",
-                            counted(p.free_components, "component", "components"), p.removed_mean);
+                            counted(p.free_components, mercat ? "parity" : "component",
+                                    mercat ? "parities" : "components"),
+                            p.removed_mean);
     }
     text += line("poisson", values);
   }

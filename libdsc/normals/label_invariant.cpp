@@ -1,6 +1,7 @@
 #include "libdsc/normals/label_invariant.h"
 
 #include "libdsc/base/parallel.h"
+#include "libdsc/normals/continued_ball.h"
 #include "libdsc/normals/flattest_direction.h"
 #include "libdsc/normals/row_sums.h"
 
@@ -57,6 +58,38 @@ InterfaceMoments interface_moments(const LabelVolume& volume, const LabelPair& l
   return m;
 }
 
+InterfaceMoments continued_interface_moments(const LabelVolume& volume, const LabelPair& labels,
+                                             const BallRows& rows, const Index3& centre) {
+  const LabelPair swapped{labels[1], labels[0]};
+  const auto inside_grid = [&](Index dx, Index dy, Index dz) {
+    return volume.grid().contains((centre[0] + dx) >> 1, (centre[1] + dy) >> 1,
+                                  (centre[2] + dz) >> 1);
+  };
+  const auto label = [&](Index dx, Index dy, Index dz) {
+    return volume((centre[0] + dx) >> 1, (centre[1] + dy) >> 1, (centre[2] + dz) >> 1);
+  };
+  InterfaceMoments m;
+  for (Index dz = -rows.reach(2); dz <= rows.reach(2); dz += 2) {
+    for (Index dy = -rows.reach(1); dy <= rows.reach(1); dy += 2) {
+      const Index extent = rows.extent(dy, dz);
+      RowLabels row{labels, {}, {}}, mirrored{swapped, {}, {}};
+      for (Index dx = -extent; dx <= extent; dx += 2) {
+        if (inside_grid(dx, dy, dz)) {
+          row.add(label(dx, dy, dz), dx, 1);
+        } else if (inside_grid(-dx, -dy, -dz)) {
+          mirrored.add(label(-dx, -dy, -dz), dx, 1);
+        }
+      }
+      for (const RowLabels& part : {row, mirrored}) {
+        add_row(m.inside, part.inside, dy, dz);
+        add_row(m.outside, part.outside, dy, dz);
+        m.third = m.third || part.third;
+      }
+    }
+  }
+  return m;
+}
+
 InterfaceNormals integral_invariant_normals(const LabelVolume& volume,
                                             std::span<const Surfel> surfels,
                                             std::span<const LabelPair> labels,
@@ -78,25 +111,35 @@ InterfaceNormals integral_invariant_normals(const LabelVolume& volume,
   const auto n = static_cast<Index>(surfels.size());
   field.u.resize(3, n);
   context.begin("normals", n);
-  field.third_label_faces = parallel_reduce(
-      context, n, 256, Index{0},
+  struct Counts {
+    Index third = 0, cut = 0;
+  };
+  const Counts counts = parallel_reduce(
+      context, n, 256, Counts{},
       [&](Index first, Index last) {
-        Index third = 0;
+        Counts found;
         for (Index i = first; i < last; ++i) {
           const Surfel& s = surfels[static_cast<std::size_t>(i)];
           const auto axis = static_cast<std::size_t>(s.axis());
           Index3 centre{2 * Index{s.x}, 2 * Index{s.y}, 2 * Index{s.z}};
           centre[axis] += s.sign();
-          const InterfaceMoments m =
-              interface_moments(volume, labels[static_cast<std::size_t>(i)], rows[axis], centre);
+          const bool cut = options.beyond == Beyond::continued &&
+                           reaches_beyond(volume.grid(), rows[axis], centre);
+          const InterfaceMoments m = (cut ? continued_interface_moments : interface_moments)(
+              volume, labels[static_cast<std::size_t>(i)], rows[axis], centre);
           const Mat3 v = covariance(m.inside, spacing) + covariance(m.outside, spacing);
           field.u.col(i) = flattest_direction(v, s.normal());
-          third += m.third ? 1 : 0;
+          found.third += m.third ? 1 : 0;
+          found.cut += cut ? 1 : 0;
         }
         context.advance(last - first);
-        return third;
+        return found;
       },
-      [](Index a, Index b) { return a + b; });
+      [](Counts a, Counts b) {
+        return Counts{a.third + b.third, a.cut + b.cut};
+      });
+  field.third_label_faces = counts.third;
+  field.cut_faces = counts.cut;
   fall_back(field, surfels, context);
   return field;
 }

@@ -5,7 +5,9 @@
 /// each in the ball, each about its own mean; u is the eigenvector of its smallest eigenvalue,
 /// oriented like the surfel. At a junction of three labels this is exact by symmetry at 120
 /// degrees, where one label alone tilts by up to 30 degrees and the union is off by 90. The
-/// outside, 0, is a label like any other here, and beyond the volume there is nothing but 0.
+/// outside, 0, is a label like any other here. Beyond the volume there is nothing but 0; or, with
+/// Beyond::continued, what is on the other side of the centre, A for B and B for A, which is exact
+/// for a plane (continued_ball.h); third labels and what is beyond on both sides are left out.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -27,6 +29,10 @@ struct InterfaceMoments {
 /// `centre` in doubled coordinates, at a surfel; `rows` those of its ball.
 InterfaceMoments interface_moments(const LabelVolume& volume, const LabelPair& labels,
                                    const BallRows& rows, const Index3& centre);
+
+/// The same, continued beyond the volume.
+InterfaceMoments continued_interface_moments(const LabelVolume& volume, const LabelPair& labels,
+                                             const BallRows& rows, const Index3& centre);
 
 struct InterfaceNormals : NormalField {
   Index third_label_faces = 0;  ///< faces whose ball meets a label beyond their own two

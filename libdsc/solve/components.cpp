@@ -48,4 +48,17 @@ Components connected_components(const FlatMesh& mesh) {
   return components;
 }
 
+Eigen::VectorXd component_means(const Components& components, const Eigen::VectorXd& weights,
+                                const Eigen::VectorXd& x) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(components.count());
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(components.count());
+  for (Index v = 0; v < x.size(); ++v) {
+    const VertexId c = components.of_vertex[static_cast<std::size_t>(v)];
+    const double w = weights.size() != 0 ? weights[v] : 1;
+    sum[c] += w * x[v];
+    total[c] += w;
+  }
+  return sum.cwiseQuotient(total);
+}
+
 }  // namespace dsc

@@ -4,6 +4,8 @@
 
 #include "libdsc/surface/flat_mesh.h"
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace dsc {
@@ -20,5 +22,9 @@ struct Components {
 /// Two vertices are connected where some face has both among its corners: the blocks of the mesh's
 /// Laplacian. \throws InputError where a corner is not a vertex id.
 Components connected_components(const FlatMesh& mesh);
+
+/// The mean of `x` (V) over each component, by the weights given (V, positive; empty: all 1).
+Eigen::VectorXd component_means(const Components& components, const Eigen::VectorXd& weights,
+                                const Eigen::VectorXd& x);
 
 }  // namespace dsc

@@ -18,6 +18,19 @@ void check_length(const Eigen::VectorXd& v, Index n, const char* what) {
   }
 }
 
+/// Whether A couples vertices of different components.
+bool crosses(const SparseMatrix& A, const Components& components) {
+  for (int col = 0; col < A.outerSize(); ++col) {
+    const VertexId c = components.of_vertex[static_cast<std::size_t>(col)];
+    for (SparseMatrix::InnerIterator it(A, col); it; ++it) {
+      if (it.value() != 0 && components.of_vertex[static_cast<std::size_t>(it.row())] != c) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 DirichletSolver::DirichletSolver(const SparseMatrix& A, std::span<const VertexId> fixed,
@@ -101,8 +114,13 @@ NeumannSolver::NeumannSolver(const SparseMatrix& A, Components components,
   if (static_cast<Index>(components_.of_vertex.size()) != A.rows()) {
     throw UsageError("Neumann: the components are those of another mesh");
   }
-  if (factory || resolve(options.method, A.rows()) == SolverMethod::ldlt) {
-    direct_.emplace(A, components_.lowest, options, context, factory);
+  // Where couplings cross the components (the classes of checkerboard.h), multigrid's coarse
+  // functions do not span the kernel.
+  const bool crossed = crosses(A, components_);
+  SolverOptions used = options;
+  if (crossed) used.method = SolverMethod::ldlt;
+  if (factory || resolve(used.method, A.rows()) == SolverMethod::ldlt) {
+    direct_.emplace(A, components_.lowest, used, context, factory);
   } else {  // it needs no fixed vertex, and converges faster without
     multigrid_.emplace(A, MultigridOptions{}, context);
   }
@@ -124,7 +142,7 @@ Solution NeumannSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& w
   for (Index c = 0; c < count; ++c) {
     if (!(std::abs(sum[c]) <= kCompatible * size[c])) {
       throw InputError("Neumann: the right-hand side sums to " + std::to_string(sum[c]) +
-                       " on the component of vertex " +
+                       " on the component (with Stabilization::mercat, the parity) of vertex " +
                        std::to_string(components_.lowest[static_cast<std::size_t>(c)]) +
                        ", so no solution exists; subtract its mean there, or fix a vertex");
     }
@@ -144,15 +162,7 @@ Solution NeumannSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& w
     MultigridSolver::Solution s = multigrid_->solve(b, &start, tolerance_, context_);
     result = {std::move(s.x), s.relative_residual, s.iterations};
   }
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
-  Eigen::VectorXd total = Eigen::VectorXd::Zero(count);
-  for (Index v = 0; v < n; ++v) {
-    const VertexId c = components_.of_vertex[static_cast<std::size_t>(v)];
-    const double w = weights.size() != 0 ? weights[v] : 1;
-    mean[c] += w * result.x[v];
-    total[c] += w;
-  }
-  for (Index c = 0; c < count; ++c) mean[c] /= total[c];
+  const Eigen::VectorXd mean = component_means(components_, weights, result.x);
   for (Index v = 0; v < n; ++v) {
     result.x[v] -= mean[components_.of_vertex[static_cast<std::size_t>(v)]];
   }

@@ -41,7 +41,8 @@ class DirichletSolver {
 };
 
 /// A x = b for an A whose kernel is the constants of each component (-L): one vertex of each is
-/// fixed, and x is shifted to mean zero there. No multiple of the identity is added to A.
+/// fixed, and x is shifted to mean zero there. No multiple of the identity is added to A. The
+/// components may be the classes of checkerboard.h, whose couplings cross: solved directly then.
 class NeumannSolver {
  public:
   NeumannSolver(const SparseMatrix& A, Components components, const SolverOptions& options = {},

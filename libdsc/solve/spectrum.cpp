@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dsc {
 namespace {
@@ -169,10 +170,13 @@ class LowestPairs {
   Pairs found_;
 };
 
+/// Whether `next` is an eigenvalue of its own and no copy of `last`, up to rounding.
+bool is_gap(double last, double next, double shift) { return next - last > kGap * (last - shift); }
+
 /// The number j >= wanted of values before the first gap, or 0 where none is in sight.
 Index first_gap(const Eigen::VectorXd& values, Index wanted, double shift) {
   for (Index j = wanted; j < values.size(); ++j) {
-    if (values[j] - values[j - 1] > kGap * (values[j - 1] - shift)) return j;
+    if (is_gap(values[j - 1], values[j], shift)) return j;
   }
   return 0;
 }
@@ -191,6 +195,15 @@ Index missing_below_gap(const LowestPairs& pairs, Index j) {
                     " cannot be counted reliably; ask for a few more or fewer");
 }
 
+/// Makes the entry largest in size of each column positive.
+void fix_signs(Eigen::MatrixXd& vectors) {
+  for (Index j = 0; j < vectors.cols(); ++j) {
+    Index largest = 0;
+    vectors.col(j).cwiseAbs().maxCoeff(&largest);
+    if (vectors(largest, j) < 0) vectors.col(j) *= -1.;
+  }
+}
+
 Spectrum finish(const LowestPairs& pairs, Index count, double tolerance) {
   Spectrum result;
   result.values = pairs.found().values.head(count);
@@ -206,12 +219,35 @@ Spectrum finish(const LowestPairs& pairs, Index count, double tolerance) {
     result.residual = std::max(result.residual, residual);
   }
   result.vectors = pairs.root().cwiseInverse().asDiagonal() * y;
-  for (Index j = 0; j < count; ++j) {
-    Index largest = 0;
-    result.vectors.col(j).cwiseAbs().maxCoeff(&largest);
-    if (result.vectors(largest, j) < 0) result.vectors.col(j) *= -1.;
-  }
+  fix_signs(result.vectors);
   return result;
+}
+
+/// Of the first `complete` eigenvectors, a basis of each eigenspace that diagonalises S in place;
+/// returns which of them are smooth.
+std::vector<Index> tell_checkerboards_apart(Spectrum& s, const SparseMatrix& S, Index complete,
+                                            double shift) {
+  std::vector<Index> smooth;
+  for (Index first = 0, last = 0; first < complete; first = last) {
+    for (last = first + 1; last < complete; ++last) {
+      if (is_gap(s.values[last - 1], s.values[last], shift)) break;
+    }
+    auto space = s.vectors.middleCols(first, last - first);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> share(space.transpose() * (S * space));
+    space = (space * share.eigenvectors()).eval();
+    for (Index k = first; k < last; ++k) {
+      const double checkerboard = share.eigenvalues()[k - first];
+      if (checkerboard <= 0.25) {
+        smooth.push_back(k);
+      } else if (checkerboard < 0.75) {
+        throw SolverError("spectrum: eigenvector " + std::to_string(k) + " is " +
+                          std::to_string(checkerboard) +
+                          " checkerboard, neither smooth nor one: without stabilisation the "
+                          "parities of this surface have spectra of their own; choose one");
+      }
+    }
+  }
+  return smooth;
 }
 
 /// The power of two next to the mean size of x: 1 where x is 0.
@@ -262,6 +298,44 @@ Spectrum lowest_spectrum(const SparseMatrix& A, const Eigen::VectorXd& mass,
   result.values *= a / m;
   result.vectors /= std::sqrt(m);
   return result;
+}
+
+Spectrum lowest_smooth_spectrum(const SparseMatrix& A, const Eigen::VectorXd& mass,
+                                const SparseMatrix& S, const SpectrumOptions& options,
+                                const Context& context) {
+  const Index n = A.rows();
+  if (S.rows() != n || S.cols() != n) {
+    throw UsageError("spectrum: the form of the checkerboards is that of another surface");
+  }
+  SpectrumOptions more = options;
+  more.count = std::min(n, 2 * options.count + 2);
+  for (;; more.count = std::min(n, 2 * more.count)) {
+    Spectrum all = lowest_spectrum(A, mass, more, context);
+    // Copies that the last eigenvalue may have beyond would leave its eigenspace incomplete.
+    const double shift = -1. / mass.sum();
+    Index complete = more.count;
+    if (more.count < n) {
+      do {
+        --complete;
+      } while (complete > 0 && !is_gap(all.values[complete - 1], all.values[complete], shift));
+    }
+    const std::vector<Index> smooth = tell_checkerboards_apart(all, S, complete, shift);
+    if (static_cast<Index>(smooth.size()) < options.count && more.count < n) continue;
+    if (static_cast<Index>(smooth.size()) < options.count) {
+      throw UsageError("spectrum: " + std::to_string(options.count) + " eigenvalues, of " +
+                       std::to_string(smooth.size()) + " that are no checkerboards; ask for fewer");
+    }
+    Spectrum result = all;
+    result.values.resize(options.count);
+    result.vectors.resize(n, options.count);
+    for (Index k = 0; k < options.count; ++k) {
+      result.values[k] = all.values[smooth[static_cast<std::size_t>(k)]];
+      result.vectors.col(k) = all.vectors.col(smooth[static_cast<std::size_t>(k)]);
+    }
+    fix_signs(result.vectors);
+    result.checkerboards = smooth[static_cast<std::size_t>(options.count - 1)] + 1 - options.count;
+    return result;
+  }
 }
 
 }  // namespace dsc

@@ -115,6 +115,20 @@ TEST(CommandLine, AnAbsurdStabilisationIsRefusedByItsName) {
   }
 }
 
+TEST(CommandLine, AStabilisationIsRefusedWhereItHasNoEffectOrNoSense) {
+  const std::vector<std::string> sphere = {"shape:sphere", "--gridstep", "0.1"};
+  const auto refused = [&](std::vector<std::string> all, const std::vector<std::string>& words) {
+    all.insert(all.end(), sphere.begin(), sphere.end());
+    expect_refused(run_dsc(all), 2, words);
+  };
+  refused({"spectrum", "--stabilisation", "some"}, {"--stabilisation", "mercat", "elements"});
+  refused({"spectrum", "--stabilisation", "mercat", "--lambda", "1"}, {"--lambda", "mercat"});
+  refused({"gradient", "--function", "x", "--stabilisation", "mercat"}, {"--stabilisation"});
+  refused({"gradient", "--function", "x", "--lambda", "1"}, {"--lambda"});
+  refused({"diffuse", "--source", "0,0,1", "--time", "1", "--stabilisation", "mercat"},
+          {"--stabilisation mercat", "checkerboard"});
+}
+
 TEST(CommandLine, AnOptionThatCouldChangeNothingIsRefused) {
   const auto refused = [](std::vector<std::string> more, const std::vector<std::string>& words) {
     std::vector<std::string> all = {"gradient", "shape:sphere", "--gridstep",

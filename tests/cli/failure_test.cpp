@@ -81,6 +81,7 @@ TEST(Failure, ASolverThatFailsIsExitCodeFiveAndLeavesNothing) {
     EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err.find("matrix"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--lambda 1e-300"), std::string::npos) << outcome.err;
     EXPECT_EQ(folder.names(), Words{});
   }
 }

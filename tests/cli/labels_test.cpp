@@ -141,6 +141,9 @@ TEST_F(ThreeLabels, GoThroughEveryCommand) {
       {"normals", "-o", folder_ / "n.vtp"},
       {"gradient", "--function", "x+y*z", "-o", folder_ / "g.vtp"},
       {"diffuse", "--time", "9", "--source-vertex", "0", "-o", folder_ / "w.ply"},
+      {"laplacian", "--function", "x+y*z", "-o", folder_ / "l.vtp"},
+      {"poisson", "--rhs", "x", "-o", folder_ / "u.vtp"},
+      {"spectrum", "-k", "3", "-o", folder_ / "e.vtp"},
       {"geodesic", "--source-vertex", "0", "-o", folder_ / "d.vtp"}};
   for (Words command : commands) {
     command.insert(command.end(), {"--labels", "all"});
@@ -148,6 +151,40 @@ TEST_F(ThreeLabels, GoThroughEveryCommand) {
     EXPECT_EQ(report["surface"]["components"], 1) << command[0];
     EXPECT_EQ(report["surface"]["boundary_edges"], 0) << command[0];
   }
+}
+
+TEST_F(ThreeLabels, HaveALaplacianAcrossTheJunction) {
+  // On surfels as they are y is linear on each face: its weak Laplacian vanishes wherever the
+  // surface goes straight on, across the line where the three meet as well.
+  report_of({"laplacian", "--labels", "all", "--calculus", "naive", "--function", "y", "-o",
+             folder_ / "l.ply"});
+  const PlyFile ply = read_ply(folder_ / "l.ply");
+  const auto laplacian = ply.vertex_columns({"laplacian"});
+  int inside = 0, corner = 0;
+  for (std::size_t v = 0; v < laplacian.size(); ++v) {
+    const auto& p = ply.vertices[v];
+    if (p[2] == 0.5 || p[2] == 8.5) continue;
+    if (p[0] == 6.5 && p[1] > 0.5 && p[1] < 12.5) {
+      EXPECT_NEAR(laplacian[v], 0, 1e-12) << p[1];
+      ++inside;
+    }
+    corner += std::abs(laplacian[v]) > 0.1 ? 1 : 0;  // at the ends of the sheets along y
+  }
+  EXPECT_EQ(inside, 11 * 7);
+  EXPECT_GT(corner, 0);
+}
+
+TEST_F(ThreeLabels, PoissonAndSpectrumSeeOneSurface) {
+  // One component, so one constant; the mean is what has to be removed of a constant.
+  const auto poisson = report_of({"poisson", "--labels", "all", "--rhs", "3+y"});
+  EXPECT_EQ(poisson["poisson"]["free_components"], 1);
+  const auto whole = report_of({"poisson", "--labels", "all", "--rhs", "3"});
+  EXPECT_NEAR(whole["poisson"]["removed_mean"], 3, 1e-12);
+  EXPECT_NEAR(whole["result"]["max"], 0, 1e-9);
+  const auto spectrum = report_of({"spectrum", "--labels", "all", "-k", "4"});
+  const auto values = spectrum["spectrum"]["eigenvalues"].get<std::vector<double>>();
+  EXPECT_NEAR(values[0], 0, 1e-9);
+  EXPECT_GT(values[1], 1e-3);
 }
 
 TEST(Labels, ANegativeValueIsRefusedWithItsVoxel) {

@@ -215,6 +215,34 @@ TEST(Spectrum, OfTheSphereIsThatOfTheHarmonics) {
   EXPECT_LT(report["error"]["max"], 0.03 * 6);
 }
 
+TEST(Stabilisation, EachKindFindsTheSpectrumAndTheDistancesOfTheSphere) {
+  for (const std::string kind : {"de-goes", "mercat", "elements", "refinement"}) {
+    const Words stabilised = Words{"--stabilisation", kind} + kSphere;
+    const auto spectrum = report_of(Words{"spectrum", "-k", "9"} + stabilised);
+    EXPECT_EQ(spectrum["calculus"]["stabilisation"], kind);
+    EXPECT_LT(spectrum["error"]["max"], 0.03 * 6) << kind;
+    const auto& found = spectrum["spectrum"];
+    EXPECT_EQ(found.contains("checkerboards_left_out"), kind == "mercat");
+    if (kind == "mercat") {
+      EXPECT_GT(found["checkerboards_left_out"], 0);
+    }
+    const auto distance = report_of(Words{"geodesic"} + stabilised + kSource);
+    EXPECT_LT(distance["error"]["mean"], 0.018) << kind;
+  }
+}
+
+TEST(Stabilisation, PoissonHasAFreeConstantForEachParityWithoutIt) {
+  const Folder folder;
+  const auto report = report_of(
+      Words{"poisson", "--rhs", "-2*x", "--stabilisation", "mercat", "-o", folder / "u.csv"} +
+      kSphere);
+  EXPECT_EQ(report["poisson"]["free_components"], 2);
+  for (const auto& row : read_csv(folder / "u.csv").rows) {
+    const double length = std::sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    EXPECT_NEAR(row[3], row[0] / length, 0.02);
+  }
+}
+
 TEST(Surface, IsWrittenWithSharedVertices) {
   const Folder folder;
   const auto report =

@@ -140,5 +140,36 @@ TEST(LabelNormals, FarFromJunctionsNoThirdLabelIsMet) {
   EXPECT_THROW(integral_invariant_normals(binary, volume, {3}), UsageError);
 }
 
+TEST(InterfaceNormals, ContinueBeyondAnOpenBorder) {
+  // Two labels fill the volume, with a tilted plane between them.
+  const Vec3 n = Vec3(1, 2, 3).normalized();
+  LabelVolume volume(Grid{{30, 30, 29}}, 1);
+  for (Index z = 0; z < 29; ++z) {
+    for (Index y = 0; y < 30; ++y) {
+      for (Index x = 0; x < 30; ++x) {
+        const Vec3 p = Vec3(double(x), double(y), double(z)) - Vec3(15, 15, 14.3);
+        volume.set(x, y, z, p.dot(n) < 0 ? 1 : 2);
+      }
+    }
+  }
+  ExtractOptions open;
+  open.border = Border::open;
+  DigitalSurface surface = extract_surface(volume, open);
+  const auto worst = [&](Beyond beyond) {
+    IntegralInvariantOptions options;
+    options.radius = 6;
+    options.beyond = beyond;
+    const NormalReport report = integral_invariant_normals(surface, volume, options);
+    EXPECT_EQ(report.cut_faces > 0, beyond == Beyond::continued);
+    double angle = 0;
+    for (Index f = 0; f < surface.face_count(); ++f) {
+      angle = std::max(angle, std::acos(std::min(1., surface.normals()[f].dot(n))) * 180 / M_PI);
+    }
+    return angle;
+  };
+  EXPECT_LT(worst(Beyond::continued), 6);  // degrees
+  EXPECT_GT(worst(Beyond::empty), 12);
+}
+
 }  // namespace
 }  // namespace dsc

@@ -149,8 +149,7 @@ void curvature_by_laplacian(Scene& scene, Run& run) {
     const Stopwatch watch(run.report.timings.solve);
     curvature = mean_curvature(smooth.mesh, smooth.points(), options, run.context);
   }
-  run.report.calculus = CalculusReport{smooth.mesh.has_normals(), run.options.curvature_lambda,
-                                       curvature.clamped_faces};
+  note_calculus(smooth.mesh.has_normals(), options.calculus, curvature.clamped_faces, run);
   if (curvature.undefined_vertices > 0) {
     run.warn("the normals cancel at " + std::to_string(curvature.undefined_vertices) +
              " vertices: their curvature is 0");

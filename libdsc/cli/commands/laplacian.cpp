@@ -44,8 +44,7 @@ void run_laplacian(Run& run) {
   }
   timings.factorize = op->seconds_factorize();
   timings.assemble -= timings.factorize;
-  run.report.calculus =
-      CalculusReport{smooth.mesh.has_normals(), run.options.lambda, op->system().clamped_faces};
+  note_calculus(smooth.mesh.has_normals(), options.calculus, op->system().clamped_faces, run);
   Solution laplacian;
   {
     const Stopwatch watch(timings.solve);

@@ -4,14 +4,15 @@
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/smooth_surface.h"
 #include "libdsc/solve/boundary.h"
-#include "libdsc/solve/components.h"
+#include "libdsc/solve/checkerboard.h"
 
 #include <cmath>
 
 namespace dsc::cli {
 namespace {
 
-/// Which vertices have given values, and which components nothing but a free constant.
+/// Which vertices have given values, and which components (with mercat, parities) nothing but a
+/// free constant.
 struct Conditions {
   std::vector<VertexId> fixed;  ///< on the boundary; and the lowest vertex of each free component
   Components components;
@@ -19,9 +20,9 @@ struct Conditions {
   Index free_count = 0;
 };
 
-Conditions conditions_of(const FlatMesh& mesh, bool fix) {
+Conditions conditions_of(const FlatMesh& mesh, bool fix, Stabilization stabilisation) {
   Conditions c;
-  c.components = connected_components(mesh);
+  c.components = kernel_classes(mesh, stabilisation);
   c.free.assign(static_cast<std::size_t>(c.components.count()), 1);
   if (fix) {
     const std::vector<char> boundary = boundary_vertices(mesh);
@@ -43,23 +44,26 @@ Conditions conditions_of(const FlatMesh& mesh, bool fix) {
   return c;
 }
 
-/// Takes from `density` its mean, weighted by `mass`, on every free component. Returns the largest
-/// mean, in size.
+/// Takes from `density` its mean, weighted by `mass`, on every free component; where only rounding
+/// is left of it, nothing is. Returns the largest mean, in size.
 double remove_means(Eigen::VectorXd& density, const Eigen::VectorXd& mass, const Conditions& c) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(c.components.count()), masses = sums;
-  const auto& of = c.components.of_vertex;
-  for (std::size_t v = 0; v < of.size(); ++v) {
-    sums[of[v]] += mass[static_cast<Index>(v)] * density[static_cast<Index>(v)];
-    masses[of[v]] += mass[static_cast<Index>(v)];
+  const auto component = [&](Index v) {
+    return c.components.of_vertex[static_cast<std::size_t>(v)];
+  };
+  const Eigen::VectorXd weight = (mass.array() > 0).select(mass, 1.);  // 1 at isolated vertices
+  Eigen::VectorXd means = component_means(c.components, weight, density);
+  for (Index k = 0; k < means.size(); ++k) {
+    if (c.free[static_cast<std::size_t>(k)] == 0) means[k] = 0;
   }
-  double largest = 0;
-  for (Index k = 0; k < sums.size(); ++k) {
-    const bool applies = c.free[static_cast<std::size_t>(k)] != 0 && masses[k] > 0;
-    sums[k] = applies ? sums[k] / masses[k] : 0.;
-    largest = std::max(largest, std::abs(sums[k]));
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(means.size());
+  for (Index v = 0; v < density.size(); ++v) {
+    density[v] -= means[component(v)];
+    left[component(v)] = std::max(left[component(v)], std::abs(density[v]));
   }
-  for (std::size_t v = 0; v < of.size(); ++v) density[static_cast<Index>(v)] -= sums[of[v]];
-  return largest;
+  for (Index v = 0; v < density.size(); ++v) {
+    if (left[component(v)] < 1e-12 * std::abs(means[component(v)])) density[v] = 0;
+  }
+  return means.cwiseAbs().maxCoeff();
 }
 
 /// Where the vertices digitise a shape, its points closest to them; else the vertices.
@@ -83,7 +87,7 @@ void run_poisson(Run& run) {
   Eigen::VectorXd density, values = Eigen::VectorXd::Zero(mesh.vertices());
   {
     const Stopwatch watch(timings.assemble);
-    conditions = conditions_of(mesh, fix.has_value());
+    conditions = conditions_of(mesh, fix.has_value(), run.options.stabilisation);
     density = sample(rhs, points, scene, run);
     if (fix) values = sample(*fix, points, scene, run);
   }
@@ -112,7 +116,7 @@ void run_poisson(Run& run) {
     const Stopwatch watch(timings.solve);
     solution = problem->solve(problem->mass().cwiseProduct(density), values);
   }
-  remove_means(solution.x, problem->mass(), conditions);
+  if (fix) remove_means(solution.x, problem->mass(), conditions);
   report.relative_residual = solution.relative_residual;
   run.report.poisson = report;
   run.report.result_name = "solution";

@@ -3,6 +3,7 @@
 #include "libdsc/calculus/assembly.h"
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/stages.h"
+#include "libdsc/solve/checkerboard.h"
 #include "libdsc/voxels/shapes.h"
 
 namespace dsc::cli {
@@ -33,13 +34,21 @@ void run_spectrum(Run& run) {
   }
   note_calculus(system.clamped_faces, run);
 
+  const bool mercat = run.options.stabilisation == Stabilization::mercat;
   Spectrum spectrum;
   {
     const Stopwatch watch(run.report.timings.solve);
-    spectrum = lowest_spectrum(-system.L, system.mass, {.count = run.options.count}, run.context);
+    const SpectrumOptions options{.count = run.options.count};
+    if (mercat) {
+      const SparseMatrix S = checkerboard_form(mesh, calculus_options(run), run.context);
+      spectrum = lowest_smooth_spectrum(-system.L, system.mass, S, options, run.context);
+    } else {
+      spectrum = lowest_spectrum(-system.L, system.mass, options, run.context);
+    }
   }
   run.report.spectrum = SpectrumReport{
-      {spectrum.values.begin(), spectrum.values.end()}, spectrum.residual, spectrum.rounds};
+      {spectrum.values.begin(), spectrum.values.end()}, spectrum.residual, spectrum.rounds, {}};
+  if (mercat) run.report.spectrum->checkerboards = spectrum.checkerboards;
   run.report.result_name = "eigenvalue";
   run.report.result = statistics_of(spectrum.values);
   if (const auto* sphere = dynamic_cast<const Sphere*>(scene.input.shape.get())) {
