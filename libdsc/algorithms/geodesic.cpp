@@ -41,6 +41,16 @@ double mean_edge(const FlatMesh& mesh) {
   return sum / static_cast<double>(mesh.corner_count());
 }
 
+SparseMatrix negated(const SparseMatrix& L, const Context& context) {
+  SparseMatrix A = L;
+  parallel_for(context, A.nonZeros(), 1 << 16, [&](Index first, Index last) {
+    for (double* value = A.valuePtr() + first; value != A.valuePtr() + last; ++value) {
+      *value = -*value;
+    }
+  });
+  return A;
+}
+
 /// A with the flagged unknowns held at 0: their rows and columns become those of the identity.
 SparseMatrix hold(const SparseMatrix& A, std::span<const char> fixed) {
   SparseMatrix held = A;
@@ -211,8 +221,9 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   }
   data->heat = data->direct.A.size() != 0 ? data->direct.A
                                           : heat_matrix(data->of_heat(), data->time, context);
-  data->poisson = std::make_unique<NeumannSolver>(-data->system.L, std::move(classes),
-                                                  options.poisson, context, options.factory);
+  data->poisson =
+      std::make_unique<NeumannSolver>(negated(data->system.L, context), std::move(classes),
+                                      options.poisson, context, options.factory);
   data->seconds_factorize = seconds_since(factorize);
   data_ = std::move(data);
 }

@@ -35,11 +35,11 @@ PoissonProblem::PoissonProblem(const FlatMesh& mesh, std::span<const VertexId> f
   for (double& w : weight_) {
     if (w == 0) w = 1;
   }
-  const SparseMatrix A = -system.L;
+  SparseMatrix A = -system.L;
   system.L.resize(0, 0);
   Components classes = kernel_classes(mesh, options.calculus.stabilization);
   if (fixed.empty()) {
-    neumann_.emplace(A, std::move(classes), options.solver, context, options.factory);
+    neumann_.emplace(std::move(A), std::move(classes), options.solver, context, options.factory);
     if (options.calculus.stabilization == Stabilization::mercat) {
       filter_.emplace(mesh, options.calculus, context);
     }

@@ -107,9 +107,8 @@ Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd&
   return result;
 }
 
-NeumannSolver::NeumannSolver(const SparseMatrix& A, Components components,
-                             const SolverOptions& options, const Context& context,
-                             const SpdSolverFactory& factory)
+NeumannSolver::NeumannSolver(SparseMatrix A, Components components, const SolverOptions& options,
+                             const Context& context, const SpdSolverFactory& factory)
     : components_(std::move(components)), tolerance_(options.tolerance), context_{context.threads} {
   if (static_cast<Index>(components_.of_vertex.size()) != A.rows()) {
     throw UsageError("Neumann: the components are those of another mesh");
@@ -122,7 +121,7 @@ NeumannSolver::NeumannSolver(const SparseMatrix& A, Components components,
   if (factory || resolve(used.method, A.rows()) == SolverMethod::ldlt) {
     direct_.emplace(A, components_.lowest, used, context, factory);
   } else {  // it needs no fixed vertex, and converges faster without
-    multigrid_.emplace(A, MultigridOptions{}, context);
+    multigrid_.emplace(std::move(A), MultigridOptions{}, context);
   }
 }
 

@@ -45,7 +45,7 @@ class DirichletSolver {
 /// components may be the classes of checkerboard.h, whose couplings cross: solved directly then.
 class NeumannSolver {
  public:
-  NeumannSolver(const SparseMatrix& A, Components components, const SolverOptions& options = {},
+  NeumannSolver(SparseMatrix A, Components components, const SolverOptions& options = {},
                 const Context& context = {}, const SpdSolverFactory& factory = {});
 
   /// `b` has n entries whose sum vanishes on each component, up to 1e-9 of the sum of |b| there.
