@@ -20,11 +20,12 @@
 
 namespace study {
 
-/// The command line.
+/// The command line. At its end it says which files were written.
 struct Arguments {
   bool full = false;  ///< the finest grids, too
   std::filesystem::path out = "out/experiments";
-  std::vector<std::string> data;  ///< volume files, where the experiment takes any
+  std::vector<std::string> data;             ///< volume files, where the experiment takes any
+  mutable std::vector<std::string> written;  ///< names of files in `out`
 
   Arguments(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
@@ -41,6 +42,14 @@ struct Arguments {
       }
     }
     std::filesystem::create_directories(out);
+  }
+  Arguments(const Arguments&) = delete;
+  Arguments& operator=(const Arguments&) = delete;
+  ~Arguments() {
+    if (written.empty()) return;
+    std::string list;
+    for (const std::string& name : written) list += (list.empty() ? "" : ", ") + name;
+    std::printf("\nWritten: %s.\n", list.c_str());
   }
 };
 
@@ -68,10 +77,53 @@ inline Norms norms(const Eigen::ArrayXd& errors) {
   return {errors.abs().mean(), std::sqrt(errors.square().mean()), errors.abs().maxCoeff()};
 }
 
+/// The vertex nearest to p.
+inline dsc::VertexId nearest(const dsc::FlatMesh& mesh, const dsc::Vec3& p) {
+  dsc::Index v = 0;
+  (mesh.positions.matrix().colwise() - p).colwise().squaredNorm().minCoeff(&v);
+  return static_cast<dsc::VertexId>(v);
+}
+
+/// Distances on a sphere around the origin: from the vertex to all, taken at their directions.
+inline Eigen::VectorXd great_circles(const dsc::FlatMesh& mesh, dsc::VertexId source) {
+  const dsc::Vec3 p = mesh.positions[source];
+  Eigen::VectorXd result(mesh.vertices());
+  for (dsc::Index v = 0; v < result.size(); ++v) {
+    const dsc::Vec3 q = mesh.positions[v];
+    result[v] = std::atan2(p.cross(q).norm(), p.dot(q));
+  }
+  return result;
+}
+
 inline std::string text(double value, const char* format = "%.3g") {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
+}
+
+/// "mean (largest)" of the absolute errors.
+inline std::string mean_and_max(const Eigen::ArrayXd& errors) {
+  const Norms n = norms(errors);
+  return text(n.mean) + " (" + text(n.max) + ")";
+}
+
+/// "root of the mean square (largest)".
+inline std::string rms_and_max(const Eigen::ArrayXd& errors) {
+  const Norms n = norms(errors);
+  return text(n.rms) + " (" + text(n.max) + ")";
+}
+
+/// The calculus without stabilisation, λ_f = 0.
+inline dsc::CalculusOptions mercat() {
+  dsc::CalculusOptions options;
+  options.stabilization = dsc::Stabilization::mercat;
+  return options;
+}
+
+/// Writes FOLDER/NAME.
+inline void write(const Arguments& arguments, const std::string& name, const dsc::Result& result) {
+  dsc::write_result((arguments.out / name).string(), result);
+  arguments.written.push_back(name);
 }
 
 /// A table on stdout, and as a curve FOLDER/NAME.csv.
@@ -79,6 +131,7 @@ class Table {
  public:
   Table(const Arguments& arguments, const std::string& name, const std::vector<std::string>& heads)
       : csv_(arguments.out / (name + ".csv")) {
+    arguments.written.push_back(name + ".csv");
     row(heads);
     std::string rule = "|";
     for (std::size_t i = 0; i < heads.size(); ++i) rule += " --- |";
