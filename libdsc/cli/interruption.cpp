@@ -1,6 +1,7 @@
 #include "libdsc/cli/interruption.h"
 
 #include "libdsc/io/atomic_file.h"
+#include "libdsc/io/child_process.h"
 
 #include <csignal>
 #include <string_view>
@@ -26,6 +27,7 @@ void watch_signals(std::shared_ptr<Monitor> monitor) {
     const timespec grace{0, 800'000'000};
     sigtimedwait(&signals, nullptr, &grace);
     AtomicFile::remove_all_temporaries();
+    detail::ChildProcess::kill_all();
     constexpr std::string_view kMessage = "\ndsc: interrupted\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
     ::_exit(kInterruptedExitCode);

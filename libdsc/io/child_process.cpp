@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -19,6 +20,18 @@ namespace dsc::detail {
 namespace {
 
 constexpr int kPollMilliseconds = 100;
+
+/// The children that live, in static memory so that a signal handler can read it. One too many is
+/// not remembered: it would only outlive an interrupted program.
+std::atomic<pid_t> children[16];
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+
+void replace_child(pid_t old_pid, pid_t new_pid) {
+  for (std::atomic<pid_t>& child : children) {
+    pid_t expected = old_pid;
+    if (child.compare_exchange_strong(expected, new_pid)) return;
+  }
+}
 
 struct Pipe {
   int ends[2] = {-1, -1};
@@ -76,6 +89,7 @@ ChildProcess::ChildProcess(const std::string& path, const std::vector<std::strin
     pid_ = -1;
     throw InputError("cannot start '" + path + "': " + std::system_category().message(result));
   }
+  replace_child(0, pid_);
   output_ = output.take_reading_end();
   errors_ = errors.take_reading_end();
   (void)::fcntl(output_, F_SETPIPE_SZ, 1 << 20);
@@ -85,11 +99,18 @@ ChildProcess::ChildProcess(const std::string& path, const std::vector<std::strin
 ChildProcess::~ChildProcess() {
   if (pid_ > 0) {
     (void)::kill(pid_, SIGKILL);
+    replace_child(pid_, 0);
     while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
   (void)::close(output_);
   (void)::close(errors_);
+}
+
+void ChildProcess::kill_all() noexcept {
+  for (const std::atomic<pid_t>& child : children) {
+    if (const pid_t pid = child.load(); pid > 0) (void)::kill(pid, SIGKILL);
+  }
 }
 
 void ChildProcess::keep_errors() {
@@ -131,6 +152,7 @@ std::string ChildProcess::finish(const Context& context) {
     (void)::poll(&file, 1, kPollMilliseconds / 10);
     keep_errors();
   }
+  replace_child(pid_, 0);
   pid_ = -1;
   keep_errors();
   if (WIFSIGNALED(status)) {

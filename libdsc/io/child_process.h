@@ -22,6 +22,10 @@ class ChildProcess {
   /// Kills it where it still runs.
   ~ChildProcess();
 
+  /// Kills every child that is still there, for the end of the process: a child whose parent is
+  /// gone might go on for ever. Only calls what a signal handler may.
+  static void kill_all() noexcept;
+
   /// The next bytes of its standard output, at most `bytes`; fewer only where the output ends.
   /// \throws Cancelled within about a tenth of a second.
   Index read(void* to, Index bytes, const Context& context);

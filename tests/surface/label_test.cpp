@@ -34,7 +34,7 @@ void expect_labels(const DigitalSurface& surface, const LabelVolume& volume) {
 }
 
 TEST(LabelSurface, RandomVolumesOfUpTo8LabelsAreSoundUnderBothAdjacencies) {
-  for (unsigned seed = 0; seed < testing::usually_or_long(1500U, 100000U); ++seed) {
+  for (unsigned seed = 0; seed < testing::usually_or_long(1500U, 20000U); ++seed) {
     const auto volume = random_labels({4, 4, 3}, 1 + seed % 8, seed);
     for (const Adjacency adjacency : {Adjacency::interior, Adjacency::exterior}) {
       ExtractOptions options;
