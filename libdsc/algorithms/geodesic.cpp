@@ -283,6 +283,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
   context.begin("distance");
   HeatDirections directions = heat_directions(d.mesh, w, report.time, d.options.calculus, context);
   report.flat_faces = directions.flat_faces;
+  report.negative_faces = directions.negative_faces;
   const Eigen::VectorXd divergence =
       integrated_divergence(d.mesh, directions.d, d.options.calculus, context);
   Eigen::VectorXd guess(n);

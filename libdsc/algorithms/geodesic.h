@@ -60,6 +60,7 @@ struct GeodesicReport {
   Index components_without_source = 0;  ///< where the distance is +infinity
   Index clamped_faces = 0;              ///< of the calculus
   Index flat_faces = 0;         ///< without a direction: heat is nearly the same at all corners
+  Index negative_faces = 0;     ///< with heat below zero at a corner, of which the size counts
   Index raised_values = 0;      ///< vertices set to 0 because they came out below
   double lowest_value = 0;      ///< the lowest of these, in length; else 0
   double heat_residual = 0;     ///< componentwise_residual of heat_front.h

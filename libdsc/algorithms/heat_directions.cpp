@@ -77,6 +77,7 @@ HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w, double
   struct Counts {
     Index flat = 0;
     Index cold = 0;
+    Index negative = 0;
   };
   const Context inner{1, nullptr};
   const auto block = [&](Index first, Index last) {
@@ -88,18 +89,22 @@ HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w, double
     for (Index f = 0; f < last - first; ++f) {
       const auto face = mesh.face(first + f);
       const Index c = mesh.first_corner(first + f) - c0;
-      bool cold = true;
+      bool cold = true, negative = false;
       std::int32_t top = 0;
       for (const VertexId v : face) {
         if (w.mantissa(v) == 0) continue;
         top = cold ? w.exponent(v) : std::max(top, w.exponent(v));
         cold = false;
+        negative = negative || w.mantissa(v) < 0;
       }
       auto values = scaled.segment(c, static_cast<Index>(face.size()));
       for (std::size_t i = 0; i < face.size(); ++i) {
-        values[static_cast<Index>(i)] = w.relative_to(face[i], top);
+        // Positive couplings at steep faces can send heat of the wrong sign into a whole sector,
+        // where it decays as that of the right one does.
+        values[static_cast<Index>(i)] = std::abs(w.relative_to(face[i], top));
       }
       counts.cold += cold ? 1 : 0;
+      counts.negative += negative ? 1 : 0;
       if (!cold) values /= values.cwiseAbs().maxCoeff();
     }
     auto d = result.d.middleCols(first, last - first);
@@ -116,10 +121,11 @@ HeatDirections heat_directions(const FlatMesh& mesh, const WideVector& w, double
   };
   const Counts total =
       parallel_reduce(context, mesh.faces(), 4096, Counts{}, block, [](Counts a, Counts b) {
-        return Counts{a.flat + b.flat, a.cold + b.cold};
+        return Counts{a.flat + b.flat, a.cold + b.cold, a.negative + b.negative};
       });
   result.flat_faces = total.flat;
   result.cold_faces = total.cold;
+  result.negative_faces = total.negative;
   return result;
 }
 

@@ -15,9 +15,10 @@
 namespace dsc {
 
 struct HeatDirections {
-  Eigen::Matrix3Xd d;    ///< 3 x F, unit vectors away from the sources, or shorter
-  Index flat_faces = 0;  ///< |d| < 1/2 though heat arrives: nearly the same at all corners
-  Index cold_faces = 0;  ///< d = 0 because w is 0 at all corners
+  Eigen::Matrix3Xd d;        ///< 3 x F, unit vectors away from the sources, or shorter
+  Index flat_faces = 0;      ///< |d| < 1/2 though heat arrives: nearly the same at all corners
+  Index cold_faces = 0;      ///< d = 0 because w is 0 at all corners
+  Index negative_faces = 0;  ///< with a corner where w < 0; |w| counts there
 };
 
 /// Each face's w is divided by its own largest entry first, so that neither w nor its square

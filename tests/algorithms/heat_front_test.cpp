@@ -1,6 +1,7 @@
 #include "libdsc/algorithms/heat_front.h"
 
 #include "libdsc/algorithms/diffusion.h"
+#include "libdsc/algorithms/heat_directions.h"
 #include "libdsc/algorithms/heat_levels.h"
 #include "libdsc/calculus/assembly.h"
 #include "libdsc/solve/ldlt_factor.h"
@@ -52,8 +53,7 @@ struct Graph {
 
 TEST(HeatFront, EqualsTheFullSolveEntryByEntry) {
   const testing::Mesh sphere = testing::cube_sphere(40);
-  const SparseMatrix A =
-      heat_matrix(assemble_laplacian(sphere.flat()), std::pow(M_PI / 2 / 40, 2));
+  const SparseMatrix A = heat_matrix(assemble_laplacian(sphere.flat()), std::pow(M_PI / 2 / 40, 2));
   // sqrt(t) times this is what distances may differ by.
   EXPECT_LT(against_the_full_solve(A, 901, {}), 2e-3);
   EXPECT_LT(against_the_full_solve(A, 901, {8, 12}), 1e-5);  // the overlap it is that does it
@@ -71,6 +71,22 @@ TEST(HeatFront, FindsHeatThatComesFromAheadOfTheFront) {
   HeatFront report;
   EXPECT_LT(against_the_full_solve(graph.matrix(), 0, {8, 8}, &report), 1e-2);
   EXPECT_GT(report.repairs, 0);
+}
+
+TEST(HeatDirections, AreThoseOfTheSizeOfHeat) {
+  // Positive couplings can turn its sign in a whole sector.
+  const testing::Mesh mesh = testing::grid(20, 20);
+  WideVector w(mesh.positions.cols()), turned(mesh.positions.cols());
+  for (Index v = 0; v < w.size(); ++v) {
+    const double heat = std::exp(-mesh.positions.col(v).norm());
+    w.set(v, {heat, 0});
+    turned.set(v, {v % 21 < 7 ? -heat : heat, 0});
+  }
+  const HeatDirections plain = heat_directions(mesh.flat(), w, 1);
+  const HeatDirections same = heat_directions(mesh.flat(), turned, 1);
+  EXPECT_EQ(plain.d, same.d);
+  EXPECT_EQ(plain.negative_faces, 0);
+  EXPECT_EQ(same.negative_faces, 20 * 7);
 }
 
 TEST(HeatFront, NumbersVerticesByTheirHopsFromTheSources) {
