@@ -91,6 +91,20 @@ Json json_of(const PoissonReport& poisson) {
           {"relative_residual", number(poisson.relative_residual)}};
 }
 
+Json json_of(const HeatReport& heat) {
+  return {{"time", number(heat.time)},
+          {"time_raised", heat.time_raised},
+          {"method", heat.method},
+          {"components_without_source", heat.components_without_source},
+          {"flat_faces", heat.flat_faces},
+          {"negative_faces", heat.negative_faces},
+          {"raised_vertices", heat.raised_vertices},
+          {"lowest_value", number(heat.lowest_value)},
+          {"heat_residual", number(heat.heat_residual)},
+          {"poisson_residual", number(heat.poisson_residual)},
+          {"poisson_iterations", heat.poisson_iterations}};
+}
+
 Json json_of(const Timings& t) {
   return {{"read", number(t.read)},         {"extract", number(t.extract)},
           {"normals", number(t.normals)},   {"smooth", number(t.smooth)},
@@ -133,6 +147,7 @@ void write_report(const std::string& path, const Options& options, const Report&
   if (report.spectrum) json["spectrum"] = json_of(*report.spectrum);
   if (report.positions) json["positions"] = json_of(*report.positions);
   if (report.poisson) json["poisson"] = json_of(*report.poisson);
+  if (report.heat) json["heat"] = json_of(*report.heat);
   if (!report.source_vertices.empty()) json["source_vertices"] = report.source_vertices;
   if (report.result) json["result"] = json_of(report.result_name, *report.result);
   if (report.error) json["error"] = json_of(report.error_name, *report.error);

@@ -62,6 +62,20 @@ struct PoissonReport {
   double relative_residual = 0;  ///< of the linear system
 };
 
+/// How distances came about (GeodesicReport has the same in the library).
+struct HeatReport {
+  double time = 0;  ///< of the heat step, length squared
+  bool time_raised = false;
+  std::string method;  ///< direct or bands
+  Index components_without_source = 0;
+  Index flat_faces = 0;       ///< without a direction
+  Index negative_faces = 0;   ///< with heat below zero at a corner
+  Index raised_vertices = 0;  ///< set to 0, since they came out below
+  double lowest_value = 0;    ///< the lowest of these, in length
+  double heat_residual = 0, poisson_residual = 0;
+  Index poisson_iterations = 0;
+};
+
 struct SpectrumReport {
   std::vector<double> eigenvalues;  ///< ascending
   double residual = 0;              ///< as in Spectrum
@@ -86,6 +100,7 @@ struct Report {
   std::optional<SpectrumReport> spectrum;
   std::optional<PositionsReport> positions;
   std::optional<PoissonReport> poisson;
+  std::optional<HeatReport> heat;
   std::vector<std::int64_t> source_vertices;
   std::string result_name;  ///< the quantity that `result` is about
   std::optional<Statistics> result;

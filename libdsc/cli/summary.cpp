@@ -127,6 +127,17 @@ std::string summary(const Report& report) {
     }
     text += line("positions", moved);
   }
+  if (report.heat) {
+    const HeatReport& heat = *report.heat;
+    std::string values = fmt::format("t = {:.4g}, {}", heat.time, heat.method);
+    const auto add = [&](Index count, const char* one, const char* many) {
+      if (count > 0) values += ", " + counted(count, one, many);
+    };
+    add(heat.negative_faces, "face with heat below zero", "faces with heat below zero");
+    add(heat.flat_faces, "face without a direction", "faces without a direction");
+    add(heat.raised_vertices, "vertex raised to 0", "vertices raised to 0");
+    text += line("heat", values);
+  }
   if (report.poisson) {
     const PoissonReport& p = *report.poisson;
     const bool mercat = report.calculus && report.calculus->stabilisation == "mercat";

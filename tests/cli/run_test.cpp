@@ -95,6 +95,21 @@ TEST(Report, HoldsEveryKeyThatIsPromised) {
   expect_no_null(report);
 }
 
+TEST(Report, TellsHowDistancesCameAbout) {
+  const auto heat =
+      report_of(Words{"geodesic"} + kSphere + kSource + Words{"--time", "0.04"})["heat"];
+  EXPECT_DOUBLE_EQ(heat["time"], 0.04);
+  EXPECT_EQ(heat["time_raised"], false);
+  EXPECT_EQ(heat["method"], "bands");
+  EXPECT_EQ(heat["components_without_source"], 0);
+  for (const char* key : {"flat_faces", "negative_faces", "raised_vertices"}) {
+    EXPECT_GE(heat[key].get<long>(), 0) << key;
+  }
+  EXPECT_LE(heat["lowest_value"], 0.);
+  EXPECT_LE(heat["heat_residual"], 1e-3);
+  EXPECT_LE(heat["poisson_residual"], 1e-5);
+}
+
 TEST(Geodesic, ReachesTheExactDistanceOnTheSphereWhereTheNaiveCalculusDoesNot) {
   const auto projected = report_of(Words{"geodesic"} + kSphere + kSource);
   EXPECT_LE(projected["error"]["mean"], 0.018);

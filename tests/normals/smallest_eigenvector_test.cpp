@@ -36,6 +36,15 @@ TEST(SmallestEigenvector, IsAccurateToRoundingOverTheGap) {
   }
 }
 
+TEST(SmallestEigenvector, SurvivesTracesWithoutAReciprocal) {
+  std::mt19937 random(3);
+  Mat3 axes;
+  const Mat3 v = with_eigenvalues(Vec3(0.1, 1, 2) * 1e-309, random, axes);  // 14 digits are left
+  const SmallestEigenvector e = smallest_eigenvector(v);
+  ASSERT_TRUE(e.unique);
+  EXPECT_LT(e.u.cross(axes.col(0)).norm(), 1e-12);
+}
+
 TEST(SmallestEigenvector, IsNotUniqueWhereEigenvaluesMeet) {
   std::mt19937 random(2);
   EXPECT_FALSE(smallest_eigenvector(Mat3::Zero()).unique);

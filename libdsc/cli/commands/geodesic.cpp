@@ -52,6 +52,20 @@ GeodesicResult solve(const FlatMesh& mesh, const std::vector<VertexId>& sources,
   return result;
 }
 
+HeatReport heat_report(const GeodesicReport& report) {
+  return {.time = report.time,
+          .time_raised = report.time_raised,
+          .method = report.method == HeatMethod::bands ? "bands" : "direct",
+          .components_without_source = report.components_without_source,
+          .flat_faces = report.flat_faces,
+          .negative_faces = report.negative_faces,
+          .raised_vertices = report.raised_values,
+          .lowest_value = report.lowest_value,
+          .heat_residual = report.heat_residual,
+          .poisson_residual = report.poisson_residual,
+          .poisson_iterations = report.poisson_iterations};
+}
+
 /// What the solver had to do that the user should know.
 void warn_of(const GeodesicReport& report, Run& run) {
   if (report.time_raised) {
@@ -88,6 +102,7 @@ void run_geodesic(Run& run) {
   const GeodesicResult result = solve(mesh, sources, run);
 
   note_calculus(result.report.clamped_faces, run);
+  run.report.heat = heat_report(result.report);
   warn_of(result.report, run);
   {
     const Stopwatch watch(run.report.timings.check);
