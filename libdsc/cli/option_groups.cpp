@@ -51,10 +51,10 @@ void add_input(CLI::App& app, Options& o) {
   app.add_option("INPUT", o.input,
                  "a volume file (" + volume_endings() + ", or raw), a mesh file (" +
                      mesh_endings() + ") or shape:NAME[,key=value...]")
-      ->required()
       ->type_name("");
+  app.add_option("-i,--input", o.input, "INPUT by an option")->type_name("FILE");
   app.add_option_function<std::string>(
-         "--gridstep",
+         "-g,--gridstep",
          [&o](const std::string& text) { o.gridstep = parse_spacing(text, "--gridstep"); },
          "edge of a voxel in world units, one number or hx,hy,hz; required for a shape, 1 for a "
          "file unless it says otherwise")
@@ -70,6 +70,9 @@ void add_input(CLI::App& app, Options& o) {
          },
          "voxels with LO <= value <= HI are inside (default: every nonzero voxel)")
       ->type_name("LO,HI");
+  add_number(app, "-m,--thresholdMin", o.above,
+             "the same by two options: voxels with LO < value (default with -M: 0)");
+  add_number(app, "-M,--thresholdMax", o.up_to, "and value <= HI (default with -m: no limit)");
   app.add_option("--label", o.labels, "voxels with this value are inside; again for more")
       ->type_name("N")
       ->allow_extra_args(false);

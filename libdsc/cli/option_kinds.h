@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,17 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& target,
     throw UsageError(name + " " + given + ": expected " + list);
   };
   return app.add_option_function<std::string>(name, read, help)->type_name(list);
+}
+
+/// A finite number.
+inline CLI::Option* add_number(CLI::App& app, const std::string& name,
+                               std::optional<double>& target, const std::string& help) {
+  const auto read = [&target, name](const std::string& text) {
+    const std::vector<double> numbers = parse_numbers(text, name);
+    if (numbers.size() != 1) throw UsageError(name + " " + text + ": expected one number");
+    target = numbers[0];
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("NUMBER");
 }
 
 /// A positive finite number.

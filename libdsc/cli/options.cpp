@@ -1,13 +1,17 @@
 #include "libdsc/cli/options.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/cli/completion.h"
 #include "libdsc/cli/help.h"
 #include "libdsc/cli/option_checks.h"
 #include "libdsc/cli/option_groups.h"
 #include "libdsc/cli/option_kinds.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace dsc::cli {
@@ -138,6 +142,40 @@ void add_commands(CLI::App& app, Options& o) {
   add_run(poisson, o, true);
 }
 
+void check_input(const Options& o) {
+  if (o.given("INPUT") && o.given("--input")) {
+    throw UsageError("INPUT and --input both say what is read; give one of them");
+  }
+  if (o.input.empty()) {
+    throw UsageError(std::string("INPUT is required; see dsc ") + name_of(o.command) + " --help");
+  }
+}
+
+/// -m and -M, which leave their lower end out, as the closed interval of --threshold.
+void set_threshold(Options& o) {
+  if (!o.above && !o.up_to) return;
+  if (o.threshold) {
+    throw UsageError("--threshold and -m, -M both say which values are inside; give one of them");
+  }
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  o.threshold = {std::nextafter(o.above.value_or(0.), kNone), o.up_to.value_or(kNone)};
+  if ((*o.threshold)[0] > (*o.threshold)[1]) {
+    throw UsageError(fmt::format("-m {:g} -M {:g}: no value is above the one and up to the other",
+                                 o.above.value_or(0.), (*o.threshold)[1]));
+  }
+}
+
+/// A text that is made of the description of the command line itself.
+std::optional<std::string> described(const CLI::App& app, int argc, const char* const* argv) {
+  const std::string asked = argc > 1 ? argv[1] : "";
+  if (asked == "--manual" && argc == 2) return manual_page(app);
+  if (asked != "--completion") return std::nullopt;
+  const std::string shell = argc == 3 ? argv[2] : "";
+  if (shell == "bash") return bash_completion(app);
+  if (shell == "zsh") return zsh_completion(app);
+  throw UsageError("--completion " + shell + ": expected bash|zsh");
+}
+
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -157,9 +195,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app{"Discrete differential calculus on digital surfaces: the boundaries of voxel sets.",
                "dsc"};
   app.set_version_flag("--version", std::string("dsc ") + DSC_VERSION);
+  app.add_option("--completion", "print what completes command lines of dsc in this shell")
+      ->type_name("bash|zsh");
+  app.add_flag_function(
+      "--manual", [](std::int64_t) {}, "print the manual page, for man -l -");
   app.require_subcommand(1);
   app.footer(help_footer());
   add_commands(app, line.options);
+  line.text = described(app, argc, argv);
+  if (line.text) return line;
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -179,6 +223,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   for (const CLI::Option* option : app.get_subcommands().front()->get_options()) {
     if (option->count() > 0) line.options.typed.insert(option->get_name());
   }
+  check_input(line.options);
+  set_threshold(line.options);
   check_options(line.options);
   return line;
 }

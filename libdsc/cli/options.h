@@ -47,6 +47,7 @@ struct Options {
   std::optional<RawLayout> raw;                    ///< of a raw file
   bool raw_type = false;                           ///< whether its type was given
   std::optional<std::array<double, 2>> threshold;  ///< inside is LO <= value <= HI
+  std::optional<double> above, up_to;              ///< as typed by -m, -M: LO < value <= HI
   std::vector<std::int64_t> labels;                ///< inside is any of these
   bool all_labels = false;                         ///< every value is a label, 0 the outside
   std::vector<LabelPair> between;                  ///< so too; only these interfaces

@@ -1,5 +1,6 @@
 /// \file
-/// A progress bar on a terminal: one line of stderr, redrawn at most ten times a second.
+/// A progress bar on a terminal: one line of stderr, redrawn at most ten times a second,
+/// with the time that the stage still takes at its speed so far.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -30,9 +31,10 @@ class ProgressBar final : public Monitor {
   const bool draw_;
   std::atomic<Index> done_{0};
   std::atomic<Index> total_{0};
-  const std::int64_t first_;       ///< when the bar may appear, in ms
-  std::atomic<std::int64_t> due_;  ///< when to draw next, steady clock, milliseconds
-  std::mutex mutex_;               ///< guards what follows
+  std::atomic<std::int64_t> begun_{0};  ///< when the stage began, in ms
+  const std::int64_t first_;            ///< when the bar may appear, in ms
+  std::atomic<std::int64_t> due_;       ///< when to draw next, steady clock, milliseconds
+  std::mutex mutex_;                    ///< guards what follows
   std::string stage_;
   bool visible_ = false;
 };

@@ -20,3 +20,29 @@ if(PROGRAM AND ITK)
     "ElementSpacing = 1 1 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678")
   run(${WORK}/prefix/${PROGRAM} info ${WORK}/v.mha)
 endif()
+
+# pkg-config tells a build without CMake the same.
+find_program(pkg_config pkg-config)
+if(pkg_config)
+  file(GLOB_RECURSE pc ${WORK}/prefix/*/libdsc.pc)
+  cmake_path(GET pc PARENT_PATH folder)
+  set(ENV{PKG_CONFIG_PATH} ${folder})
+  execute_process(COMMAND ${pkg_config} --cflags --libs libdsc OUTPUT_VARIABLE flags
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  separate_arguments(own UNIX_COMMAND "${FLAGS}")
+  run(${COMPILER} ${own} -std=c++20 ${SOURCE}/main.cpp -o ${WORK}/by_pkg_config ${flags}
+    -Wl,-rpath,${WORK}/prefix/lib)
+  run(${WORK}/by_pkg_config)
+else()
+  message(STATUS "skipped: there is no pkg-config")
+endif()
+
+# The manual page and the completions of shells are there.
+if(PROGRAM)
+  foreach(text man/man1/dsc.1 bash-completion/completions/dsc zsh/vendor-completions/_dsc)
+    if(NOT EXISTS ${WORK}/prefix/share/${text})
+      message(FATAL_ERROR "share/${text} was not installed")
+    endif()
+  endforeach()
+endif()
