@@ -5,6 +5,7 @@
 /// its upper side belongs to q, and so does the pointel at q's low corner.
 #pragma once
 
+#include "libdsc/surface/topology.h"
 #include "libdsc/voxels/binary_volume.h"
 #include "libdsc/voxels/label_volume.h"
 
@@ -21,6 +22,43 @@ class BinaryCells {
 
   /// 1 inside, 0 outside; for voxels of the grid or of its margin of one.
   Label label(Index x, Index y, Index z) const { return volume_.in_margin(x, y, z) ? 1 : 0; }
+
+  /// The labels on the lower and upper side of the surfel across `axis` with voxel (x, y, z) above.
+  LabelPair labels_across(int, Index x, Index y, Index z) const {
+    const Label upper = label(x, y, z);
+    return {1 - upper, upper};
+  }
+  /// The labels of the four voxels around a linel: `inner` and the voxel outside it, and the steps
+  /// of both in another direction, where there are surfels beside the inner voxel and beside the
+  /// outer one or not. With two labels that tells all.
+  static std::array<Label, 4> around(const topology::Voxel&, int, int, bool beside_inner,
+                                     bool beside_outer) {
+    return {1, 0, beside_inner ? Label{0} : Label{1}, beside_outer ? Label{1} : Label{0}};
+  }
+
+  /// What a block of words has in common.
+  struct Overview {
+    Word some = 0;        ///< bits that are in some row
+    Word all = ~Word{0};  ///< bits that are in every row
+
+    /// False where all voxels that touch the block's cells are alike; `before` is the overview of
+    /// the words w - 1.
+    bool may_have_cells(const Overview& before) const {
+      const Word first = Word{1} << 63;
+      return (some | (before.some & first)) != 0 && (~all | (~before.all & first)) != 0;
+    }
+  };
+  /// Of words w of the rows that touch the cells of rows [first, last) of slice z.
+  Overview overview(Index w, Index first, Index last, Index z) const {
+    const Word* here = volume_.word_address(w, first - 1, z);
+    const Word* below = volume_.word_address(w, first - 1, z - 1);
+    Overview result;
+    for (Index i = 0; i <= last - first; ++i) {
+      result.some |= here[i] | below[i];
+      result.all &= here[i] & below[i];
+    }
+    return result;
+  }
 
   /// Bits of the surfels across `axis` that belong to word w of row (y, z).
   Word surfel_bits(int axis, Index w, Index y, Index z) const {

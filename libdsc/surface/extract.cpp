@@ -2,22 +2,31 @@
 
 #include "libdsc/base/parallel.h"
 #include "libdsc/surface/binary_cells.h"
+#include "libdsc/surface/cell_neighbourhood.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/label_cells.h"
 #include "libdsc/surface/surface_builder.h"
 #include "libdsc/surface/surfel_numbering.h"
+#include "libdsc/surface/surfel_places.h"
 #include "libdsc/surface/topology.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace dsc {
 namespace {
 
+using topology::Junction;
 using topology::kNoSide;
+using topology::kPlaces;
+using topology::kSideDirection;
 using topology::kSideFacing;
 using topology::kStep;
+using topology::Place;
+using topology::Places;
 using topology::SideCode;
+using topology::Voxel;
 
 /// Fills a builder with all surfels of a volume, word after word.
 template <class Cells>
@@ -36,13 +45,14 @@ class Extraction {
         opposite_(builder_.opposite()) {}
 
   SurfaceBuilder run(const Context& context) && {
-    std::vector<std::vector<topology::Junction>> junctions(
-        static_cast<std::size_t>(numbering_.slices()));
+    std::vector<std::vector<Junction>> junctions(static_cast<std::size_t>(numbering_.slices()));
     context.begin("extract", numbering_.slices());
     parallel_for(context, numbering_.slices(), 1, [&](Index z, Index) {
       for (Index w = 0; w < numbering_.words(); ++w) {
-        for (Index y = 0; y < numbering_.rows(); ++y) {
-          if (numbering_.has_cells(w, y, z)) word(w, y, z, junctions[static_cast<std::size_t>(z)]);
+        CellNeighbourhood near(numbering_, w, z);
+        for (const CellWord& here : numbering_.column(w, z)) {
+          near.move_to(here);
+          word(here, w, z, near, junctions[static_cast<std::size_t>(z)]);
         }
       }
       context.advance(1);
@@ -54,86 +64,79 @@ class Extraction {
   }
 
  private:
-  struct Voxel {
-    Index x, y, z;
-    Voxel step(int d) const { return {x + kStep[d][0], y + kStep[d][1], z + kStep[d][2]}; }
-  };
-  struct Cell {  ///< a surfel by inner voxel and direction
-    Voxel inner;
-    int direction;
-  };
-
-  Label label(const Voxel& v) const { return cells_.label(v.x, v.y, v.z); }
-
-  /// The surfel between v and its neighbour in direction d, from its inner voxel outwards.
-  Cell between(const Voxel& v, int d) const {
-    const Voxel other = v.step(d);
-    return is_inner(label(v), label(other)) ? Cell{v, d}
-                                            : Cell{other, topology::opposite_direction(d)};
-  }
-  Index face_id(const Cell& s) const {
-    const Voxel q = (s.direction & 1) != 0 ? s.inner.step(s.direction) : s.inner;
-    return numbering_.face_id(s.direction >> 1, q.x, q.y, q.z);
-  }
-  SideCode side(const Cell& s, int facing) const {
-    return topology::side_code(face_id(s), kSideFacing[s.direction][facing]);
-  }
-
-  /// All cells of word w of row (y, z).
-  void word(Index w, Index y, Index z, std::vector<topology::Junction>& junctions) {
-    Index vertex = numbering_.first_vertex(w, y, z);
-    for (auto bits = cells_.pointel_bits(w, y, z); bits != 0; bits &= bits - 1) {
-      const double x = static_cast<double>(64 * w + std::countr_zero(bits) - 1);
-      const Vec3 p = cells_.grid().position(x - 0.5, static_cast<double>(y) - 0.5,
+  /// All cells of a word.
+  void word(const CellWord& here, Index w, Index z, const CellNeighbourhood& near,
+            std::vector<Junction>& junctions) {
+    const Index first_x = 64 * w - 1;
+    auto vertex = static_cast<std::size_t>(numbering_.vertex_base(z) + here.first_vertex);
+    for (auto bits = here.pointels; bits != 0; bits &= bits - 1) {
+      const auto x = static_cast<double>(first_x + std::countr_zero(bits));
+      const Vec3 p = cells_.grid().position(x - 0.5, static_cast<double>(here.y) - 0.5,
                                             static_cast<double>(z) - 0.5);
-      positions_[static_cast<std::size_t>(vertex++)] = {p[0], p[1], p[2]};
+      positions_[vertex++] = {p[0], p[1], p[2]};
     }
-    Index face = numbering_.first_face(w, y, z);
+    Index face = numbering_.face_base(z) + here.first_face;
     for (int axis = 0; axis < 3; ++axis) {
-      for (auto bits = cells_.surfel_bits(axis, w, y, z); bits != 0; bits &= bits - 1) {
-        const Voxel upper{64 * w + std::countr_zero(bits) - 1, y, z};
-        surfel(face++, between(upper, 2 * axis), junctions);
+      for (auto bits = here.surfels[static_cast<std::size_t>(axis)]; bits != 0; bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        surfel(face++, axis, bit, {first_x + bit, here.y, z}, near, junctions);
       }
     }
   }
 
-  void surfel(Index face, const Cell& s, std::vector<topology::Junction>& junctions) {
+  /// The surfel across `axis` that has voxel `upper` above.
+  void surfel(Index face, int axis, int bit, const Voxel& upper, const CellNeighbourhood& near,
+              std::vector<Junction>& junctions) {
     const auto f = static_cast<std::size_t>(face);
-    surfels_[f] = {static_cast<std::int32_t>(s.inner.x), static_cast<std::int32_t>(s.inner.y),
-                   static_cast<std::int32_t>(s.inner.z), s.direction};
-    if (!labels_.empty()) labels_[f] = {label(s.inner), label(s.inner.step(s.direction))};
-    for (int i = 0; i < 4; ++i) {
-      const auto& o = topology::kCornerOffset[s.direction][i];
-      corners_[f][i] = static_cast<VertexId>(
-          numbering_.vertex_id(s.inner.x + o[0], s.inner.y + o[1], s.inner.z + o[2]));
+    const auto [low, high] = cells_.labels_across(axis, upper.x, upper.y, upper.z);
+    const bool up = is_inner(low, high);  // the normal points along +axis
+    const int d = 2 * axis + (up ? 1 : 0);
+    const Voxel inner = up ? upper.step(2 * axis) : upper;
+    surfels_[f] = {static_cast<std::int32_t>(inner.x), static_cast<std::int32_t>(inner.y),
+                   static_cast<std::int32_t>(inner.z), d};
+    if (!labels_.empty()) labels_[f] = up ? LabelPair{low, high} : LabelPair{high, low};
+    const Places& places = kPlaces[static_cast<std::size_t>(d)];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Place& corner = places.corners[i];
+      corners_[f][i] = static_cast<VertexId>(near.vertex_id(bit + corner.dx, corner.row));
     }
     for (int i = 0; i < 4; ++i) {
-      opposite_[4 * f + i] = link(topology::side_code(face, i), s,
-                                  topology::kSideDirection[s.direction][i], junctions);
+      opposite_[4 * f + static_cast<std::size_t>(i)] =
+          link(topology::side_code(face, i), inner, d, bit, near, junctions);
     }
   }
 
-  /// The side that this one, of surfel s, facing e, is linked to: that of the surfel which
-  /// separates the same two labels, and where all four at the linel do, the one that the adjacency
-  /// names. Around the linel lie s's inner and outer voxel and the steps of both along e, and
-  /// between them the surfels: s itself, b beside the inner voxel, c across, d beside the outer
-  /// voxel.
-  SideCode link(SideCode self, const Cell& s, int e, std::vector<topology::Junction>& junctions) {
-    const int d = s.direction;
-    const Voxel outer = s.inner.step(d), inner_e = s.inner.step(e), outer_e = outer.step(e);
-    const Label in = label(s.inner), out = label(outer);
-    const Label in_e = label(inner_e), out_e = label(outer_e);
-    const auto side_b = [&] { return side(between(s.inner, e), d); };
-    const auto side_c = [&] { return side(between(inner_e, d), topology::opposite_direction(e)); };
-    const auto side_d = [&] { return side(between(outer, e), topology::opposite_direction(d)); };
-    if (in_e == in && out_e == out) return side_c();
-    const bool has_b = in != in_e, has_c = in_e != out_e, has_d = out != out_e;
+  /// The side that this one, of the surfel of direction d of voxel `inner`, is linked to: that of
+  /// the surfel which separates the same two labels, and where all four at the linel do, the one
+  /// that the adjacency names. The side faces direction e. Around the linel lie the inner and outer
+  /// voxel and the steps of both along e, and between them the surfels: the one at hand, b beside
+  /// the inner voxel, c across, d beside the outer voxel.
+  SideCode link(SideCode self, const Voxel& inner, int d, int bit, const CellNeighbourhood& near,
+                std::vector<Junction>& junctions) const {
+    const auto& [b, c, dd] =
+        kPlaces[static_cast<std::size_t>(d)].beside[static_cast<std::size_t>(self & 3)];
+    const auto has = [&](const Place& p) { return near.has_surfel(p.axis, bit + p.dx, p.row); };
+    const auto side = [&](const Place& p, int direction, int facing) {
+      return topology::side_code(near.face_id(p.axis, bit + p.dx, p.row),
+                                 kSideFacing[direction][facing]);
+    };
+    const int e = kSideDirection[d][self & 3];
+    const int back = topology::opposite_direction(e), down = topology::opposite_direction(d);
+    const bool has_b = has(b), has_d = has(dd);
+    if (!has_b && !has_d) return side(c, d, back);
+
+    const auto [in, out, in_e, out_e] = cells_.around(inner, d, e, has_b, has_d);
+    const bool has_c = in_e != out_e;
+    const auto side_b = [&] { return side(b, is_inner(in, in_e) ? e : back, d); };
+    const auto side_c = [&] { return side(c, is_inner(in_e, out_e) ? d : down, back); };
+    const auto side_d = [&] { return side(dd, is_inner(out, out_e) ? e : back, down); };
     if (has_b + has_c + has_d > 1) {
-      const SideCode b = has_b ? side_b() : kNoSide;
-      const SideCode c = has_c ? side_c() : kNoSide;
-      const SideCode dd = has_d ? side_d() : kNoSide;
-      const auto after = [&](SideCode other) { return other == kNoSide || self < other; };
-      if (after(b) && after(c) && after(dd)) junctions.push_back({{self, b, c, dd}});
+      const Junction junction{{self, has_b ? side_b() : kNoSide, has_c ? side_c() : kNoSide,
+                               has_d ? side_d() : kNoSide}};
+      if (std::all_of(junction.sides.begin() + 1, junction.sides.end(),
+                      [&](SideCode other) { return other == kNoSide || self < other; })) {
+        junctions.push_back(junction);
+      }
     }
     const bool to_b = in_e == out, to_d = out_e == in;
     if (to_b && to_d) return adjacency_ == Adjacency::interior ? side_b() : side_d();
@@ -143,7 +146,7 @@ class Extraction {
 
   const Cells& cells_;
   Adjacency adjacency_;
-  SurfelNumbering<Cells> numbering_;
+  SurfelNumbering numbering_;
   SurfaceBuilder builder_;
   std::span<Surfel> surfels_;
   std::span<LabelPair> labels_;

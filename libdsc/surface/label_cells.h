@@ -4,6 +4,7 @@
 #pragma once
 
 #include "libdsc/base/context.h"
+#include "libdsc/surface/topology.h"
 #include "libdsc/voxels/label_volume.h"
 
 namespace dsc {
@@ -17,6 +18,25 @@ class LabelCells {
   const Grid& grid() const { return volume_.grid(); }
   Index words() const { return words_; }
   Label label(Index x, Index y, Index z) const { return volume_(x, y, z); }
+
+  /// As in BinaryCells.
+  LabelPair labels_across(int axis, Index x, Index y, Index z) const {
+    const topology::Voxel lower = topology::Voxel{x, y, z}.step(2 * axis);
+    return {label(lower.x, lower.y, lower.z), label(x, y, z)};
+  }
+  std::array<Label, 4> around(const topology::Voxel& inner, int d, int e, bool beside_inner,
+                              bool beside_outer) const {
+    const topology::Voxel outer = inner.step(d), outer_e = outer.step(e), inner_e = inner.step(e);
+    const Label in = label(inner.x, inner.y, inner.z), out = label(outer.x, outer.y, outer.z);
+    return {in, out, beside_inner ? label(inner_e.x, inner_e.y, inner_e.z) : in,
+            beside_outer ? label(outer_e.x, outer_e.y, outer_e.z) : out};
+  }
+
+  /// Comparing the labels has cost more than leaving out words could save.
+  struct Overview {
+    static bool may_have_cells(const Overview&) { return true; }
+  };
+  static Overview overview(Index, Index, Index, Index) { return {}; }
 
   Word surfel_bits(int axis, Index w, Index y, Index z) const {
     return bits_[static_cast<std::size_t>(axis)][at(w, y, z)];

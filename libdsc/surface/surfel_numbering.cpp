@@ -1,49 +1,97 @@
 #include "libdsc/surface/surfel_numbering.h"
 
+#include "libdsc/base/bits.h"
 #include "libdsc/base/checked.h"
 #include "libdsc/base/parallel.h"
 #include "libdsc/surface/binary_cells.h"
 #include "libdsc/surface/label_cells.h"
 
 #include <limits>
-#include <new>
 
 namespace dsc {
+namespace {
+
+/// Rows that are looked at together; where they are all alike, not one by one.
+constexpr Index kBlock = 64;
+
+/// The cells of one slice, word after word.
+template <class Cells>
+class SliceScan {
+ public:
+  SliceScan(const Cells& cells, std::vector<CellWord>& out)
+      : cells_(cells), rows_(cells.grid().size[1] + 1), out_(out) {}
+
+  Index faces() const { return faces_; }
+  Index vertices() const { return vertices_; }
+
+  /// Appends words w of slice z. To be called for ascending w.
+  void column(Index w, Index z) {
+    blocks_.resize(static_cast<std::size_t>((rows_ + kBlock - 1) / kBlock));
+    for (Index first = 0; first < rows_; first += kBlock) {
+      const Index last = std::min(rows_, first + kBlock);
+      const auto here = cells_.overview(w, first, last, z);
+      auto& before = blocks_[static_cast<std::size_t>(first / kBlock)];
+      if (here.may_have_cells(before)) {
+        for (Index y = first; y < last; ++y) word(w, y, z);
+      }
+      before = here;
+    }
+  }
+
+ private:
+  void word(Index w, Index y, Index z) {
+    CellWord cell;
+    cell.pointels = cells_.pointel_bits(w, y, z);
+    if (cell.pointels == 0) return;
+    cell.y = static_cast<std::int32_t>(y);
+    cell.first_face = static_cast<std::uint32_t>(faces_);
+    cell.first_vertex = static_cast<std::uint32_t>(vertices_);
+    int faces = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      cell.surfels[a] = cells_.surfel_bits(axis, w, y, z);
+      cell.before[a] = static_cast<std::uint8_t>(faces);
+      faces += count_bits(cell.surfels[a]);
+    }
+    faces_ += faces;
+    vertices_ += count_bits(cell.pointels);
+    out_.push_back(cell);
+  }
+
+  const Cells& cells_;
+  Index rows_;
+  std::vector<CellWord>& out_;
+  std::vector<typename Cells::Overview> blocks_;  ///< of the words w - 1
+  Index faces_ = 0, vertices_ = 0;
+};
+
+}  // namespace
 
 template <class Cells>
-SurfelNumbering<Cells>::SurfelNumbering(const Cells& cells, const Context& context)
-    : cells_(cells) {
-  const Index3 size = cells.grid().size;
-  words_ = cells.words();
-  rows_ = size[1] + 1;
-  const Index slices = size[2] + 1;
-  slice_ = static_cast<std::size_t>(words_ * rows_);
-  face_base_.assign(static_cast<std::size_t>(slices + 1), 0);
-  vertex_base_.assign(static_cast<std::size_t>(slices + 1), 0);
-  slots_.resize(slice_ * static_cast<std::size_t>(slices));
+SurfelNumbering::SurfelNumbering(const Cells& cells, const Context& context)
+    : words_(cells.words()) {
+  const auto slices = static_cast<std::size_t>(cells.grid().size[2] + 1);
+  slices_.resize(slices);
+  begins_.assign(slices * static_cast<std::size_t>(words_ + 1), 0);
+  face_base_.assign(slices + 1, 0);
+  vertex_base_.assign(slices + 1, 0);
 
-  // 8 bytes read and 8 written a word: the scan runs at the speed of memory where words are
-  // uniform.
-  context.begin("scan", slices);
-  parallel_for(context, slices, 1, [&](Index z, Index) {
-    Index faces = 0, vertices = 0;
-    Counts* slot = slots_.data() + static_cast<std::size_t>(z) * slice_;
+  // Every word is read from memory once, and from the cache again for the next slice.
+  context.begin("scan", static_cast<Index>(slices));
+  parallel_for(context, static_cast<Index>(slices), 1, [&](Index z, Index) {
+    const auto slice = static_cast<std::size_t>(z);
+    SliceScan<Cells> scan(cells, slices_[slice]);
+    std::uint32_t* end = begins_.data() + z * (words_ + 1);
     for (Index w = 0; w < words_; ++w) {
-      for (Index y = 0; y < rows_; ++y, ++slot) {
-        *slot = {static_cast<std::uint32_t>(faces), static_cast<std::uint32_t>(vertices)};
-        const Word pointels = cells_.pointel_bits(w, y, z);
-        if (pointels == 0) continue;
-        vertices += std::popcount(pointels);
-        for (int axis = 0; axis < 3; ++axis)
-          faces += std::popcount(cells_.surfel_bits(axis, w, y, z));
-      }
+      scan.column(w, z);
+      *++end = static_cast<std::uint32_t>(slices_[slice].size());
     }
-    if (faces > std::numeric_limits<VertexId>::max()) {
+    if (scan.faces() > std::numeric_limits<VertexId>::max()) {
       throw LimitError(
           "surface: one slice of the volume has more faces than 32-bit ids can number");
     }
-    face_base_[static_cast<std::size_t>(z) + 1] = faces;
-    vertex_base_[static_cast<std::size_t>(z) + 1] = vertices;
+    face_base_[slice + 1] = scan.faces();
+    vertex_base_[slice + 1] = scan.vertices();
     context.advance(1);
   });
   for (std::size_t z = 1; z < face_base_.size(); ++z) {
@@ -54,7 +102,7 @@ SurfelNumbering<Cells>::SurfelNumbering(const Cells& cells, const Context& conte
   (void)checked_id(checked_product(8, face_base_.back(), "surface halfedges"), "surface halfedges");
 }
 
-template class SurfelNumbering<BinaryCells>;
-template class SurfelNumbering<LabelCells>;
+template SurfelNumbering::SurfelNumbering(const BinaryCells&, const Context&);
+template SurfelNumbering::SurfelNumbering(const LabelCells&, const Context&);
 
 }  // namespace dsc

@@ -3,76 +3,64 @@
 ///
 /// Every cell (surfel, pointel) belongs to the bit of its low corner (binary_cells.h). The cells of
 /// one word of 64 voxels are numbered one after another, so the number of a cell is the count
-/// before its word plus a population count: no hash and no search.
+/// before its word plus a population count: no hash. Only words that have cells are kept, 48 bytes
+/// each, so a volume that is mostly empty costs its scan and nothing else.
 #pragma once
 
 #include "libdsc/base/context.h"
+#include "libdsc/base/types.h"
 
-#include <bit>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dsc {
 
-/// `Cells` is BinaryCells or LabelCells.
-template <class Cells>
+/// The cells of one word of a row.
+struct CellWord {
+  std::array<std::uint64_t, 3> surfels{};  ///< bits of the surfels across each axis
+  std::uint64_t pointels = 0;
+  std::uint32_t first_face = 0;  ///< faces and vertices before this word, within its slice
+  std::uint32_t first_vertex = 0;
+  std::int32_t y = 0;
+  std::array<std::uint8_t, 3> before{};  ///< faces of this word across the axes before each
+
+  bool touches_neighbour() const {
+    constexpr std::uint64_t kEnds = 1 | std::uint64_t{1} << 63;
+    return ((surfels[0] | surfels[1] | surfels[2]) & kEnds) != 0;
+  }
+};
+
 class SurfelNumbering {
  public:
-  using Word = typename Cells::Word;
-
-  /// Counts all cells, in parallel over z. `cells` must outlive this.
+  /// Counts all cells, in parallel over z. `Cells` is BinaryCells or LabelCells.
   /// \throws LimitError where ids pass 32 bits.
+  template <class Cells>
   SurfelNumbering(const Cells& cells, const Context& context);
 
   Index faces() const { return face_base_.back(); }
   Index vertices() const { return vertex_base_.back(); }
 
-  /// Slices of words, z in [0, slices()); within one, slots w, y in the order of the numbering.
-  Index slices() const { return static_cast<Index>(face_base_.size()) - 1; }
+  /// The order of the numbering: slices z in [0, slices()), in them words w of the rows in
+  /// [0, words()), in these y, in a word the surfels across x, y, z, each by x.
+  Index slices() const { return static_cast<Index>(slices_.size()); }
   Index words() const { return words_; }
-  Index rows() const { return rows_; }
 
-  /// Whether word w of row (y, z) has any cell.
-  bool has_cells(Index w, Index y, Index z) const {
-    const std::size_t slot = slot_of(w, y, z);
-    const std::size_t next = slot + 1;
-    return next == slots_.size() || (next % slice_) == 0 ||
-           slots_[slot].vertices != slots_[next].vertices;
+  /// The words w of slice z that have cells, by y; none outside the volume.
+  std::span<const CellWord> column(Index w, Index z) const {
+    if (w < 0 || w >= words_ || z < 0 || z >= slices()) return {};
+    const std::uint32_t* begin = begins_.data() + z * (words_ + 1) + w;
+    return std::span(slices_[static_cast<std::size_t>(z)]).subspan(begin[0], begin[1] - begin[0]);
   }
-  Index first_face(Index w, Index y, Index z) const {
-    return face_base_[static_cast<std::size_t>(z)] + slots_[slot_of(w, y, z)].faces;
-  }
-  Index first_vertex(Index w, Index y, Index z) const {
-    return vertex_base_[static_cast<std::size_t>(z)] + slots_[slot_of(w, y, z)].vertices;
-  }
-
-  /// The number of the surfel between voxel q = (x, y, z) and its lower neighbour along `axis`.
-  /// Precondition: that surfel exists.
-  Index face_id(int axis, Index x, Index y, Index z) const {
-    const Index bit = x + 1, w = bit >> 6;
-    Index id = first_face(w, y, z);
-    for (int a = 0; a < axis; ++a) id += std::popcount(cells_.surfel_bits(a, w, y, z));
-    return id + std::popcount(cells_.surfel_bits(axis, w, y, z) & below(bit));
-  }
-  /// The number of the pointel (x, y, z). Precondition: it exists.
-  Index vertex_id(Index x, Index y, Index z) const {
-    const Index bit = x + 1, w = bit >> 6;
-    return first_vertex(w, y, z) + std::popcount(cells_.pointel_bits(w, y, z) & below(bit));
-  }
+  /// Faces and vertices before slice z, z in [0, slices()].
+  Index face_base(Index z) const { return face_base_[static_cast<std::size_t>(z)]; }
+  Index vertex_base(Index z) const { return vertex_base_[static_cast<std::size_t>(z)]; }
 
  private:
-  struct Counts {
-    std::uint32_t faces, vertices;
-  };
-  static Word below(Index bit) { return (Word{1} << (bit & 63)) - 1; }
-  std::size_t slot_of(Index w, Index y, Index z) const {
-    return static_cast<std::size_t>(z) * slice_ + static_cast<std::size_t>(w * rows_ + y);
-  }
-
-  const Cells& cells_;
-  Index words_, rows_;
-  std::size_t slice_;                           ///< slots a slice
-  std::vector<Counts> slots_;                   ///< cells before this slot, within its slice
+  Index words_;
+  std::vector<std::vector<CellWord>> slices_;
+  std::vector<std::uint32_t> begins_;           ///< of the columns, words + 1 a slice
   std::vector<Index> face_base_, vertex_base_;  ///< cells before each slice, and in all
 };
 

@@ -29,6 +29,11 @@ constexpr int opposite_direction(int d) { return d ^ 1; }
 inline constexpr int kStep[6][3] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
                                     {0, 1, 0},  {0, 0, -1}, {0, 0, 1}};
 
+struct Voxel {
+  Index x, y, z;
+  constexpr Voxel step(int d) const { return {x + kStep[d][0], y + kStep[d][1], z + kStep[d][2]}; }
+};
+
 /// kSideDirection[d][i]: the in-plane direction that side i of a surfel of direction d faces.
 inline constexpr auto kSideDirection = [] {
   std::array<std::array<int, 4>, 6> table{};

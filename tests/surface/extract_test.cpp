@@ -133,6 +133,25 @@ TEST(Extract, CornersRunCounterClockwiseSeenFromOutside) {
   }
 }
 
+TEST(Extract, BoxesThatFillWholeWordsKeepTheirSurfels) {
+  // Bits start at x = -1, so a word begins at x = 63; rows are looked at 64 at a time.
+  for (const Index x0 : {0, 62, 63, 64}) {
+    for (const Index x1 : {126, 127, 128}) {
+      for (const Index y0 : {0, 63, 64, 65}) {
+        for (const Index y1 : {127, 128, 129, 200}) {
+          const DigitalSurface s =
+              extract_surface(testing::box_volume({130, 200, 3}, {x0, y0, 0}, {x1, y1, 3}));
+          const Index a = x1 - x0, b = y1 - y0;
+          ASSERT_EQ(s.counts().faces, 2 * (a * b + 3 * b + 3 * a))
+              << x0 << " " << x1 << " " << y0 << " " << y1;
+          ASSERT_EQ(s.counts().euler, 2);
+          ASSERT_EQ(s.counts().boundary_edges, 0);
+        }
+      }
+    }
+  }
+}
+
 TEST(Extract, AnEmptyVolumeHasAnEmptySurface) {
   for (const Index3 size : {Index3{0, 0, 0}, Index3{5, 4, 3}, Index3{70, 0, 3}}) {
     const DigitalSurface s = extract_surface(BinaryVolume(Grid{size, {1, 1, 1}, Vec3::Zero()}));
