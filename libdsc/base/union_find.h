@@ -29,6 +29,7 @@ class UnionFind {
   }
 
   void join(VertexId a, VertexId b) {
+    if (load(a) == load(b)) return;  // the usual case, and sets never part
     for (;;) {
       a = find(a);
       b = find(b);

@@ -13,7 +13,7 @@ using OpenMesh::VertexHandle;
 
 void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
                      std::span<const SideCode> opposite, std::span<const SideCode> leaders,
-                     const Context& context) {
+                     Index pointels, const Context& context) {
   constexpr Index kGrain = 8192;
   const auto faces = static_cast<Index>(corners.size());
   const auto at = [](auto& array, SideCode s) -> decltype(auto) {
@@ -66,6 +66,17 @@ void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
         mesh.set_boundary(outside(s));
         mesh.set_next_halfedge_handle(outside(s), outside(previous_side(start)));
       }
+    }
+  });
+  // The vertices that share their pointel with another.
+  const Index further = static_cast<Index>(leaders.size()) - pointels;
+  parallel_for(context, further, kGrain, [&](Index first, Index last) {
+    for (Index v = pointels + first; v < pointels + last; ++v) {
+      const VertexHandle name(static_cast<int>(v));
+      for_each_around(leaders[static_cast<std::size_t>(v)], opposite, [&](SideCode corner) {
+        mesh.set_vertex_handle(handle(previous_side(corner)), name);
+        if (at(opposite, corner) == kNoSide) mesh.set_vertex_handle(outside(corner), name);
+      });
     }
   });
   parallel_for(context, static_cast<Index>(leaders.size()), kGrain, [&](Index first, Index last) {

@@ -12,11 +12,12 @@ namespace dsc::topology {
 
 /// Resizes the mesh to leaders.size() vertices and its edges, and writes every halfedge.
 ///
-/// `corners`: the mesh vertex of each face corner; `opposite`: the links; `leaders[v]`: a corner of
-/// vertex v, the start of its chain where the umbrella is open. The orbits of corners under the
-/// links must be the vertices, one each. Positions and properties of existing vertices are kept.
+/// `corners`: the pointel of each face corner; `opposite`: the links; `leaders[v]`: a corner of
+/// mesh vertex v, the start of its chain where the umbrella is open. The orbits of corners under
+/// the links must be the vertices, one each; those of vertices below `pointels` are of the pointel
+/// of the same number. Positions and properties of existing vertices are kept.
 void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
                      std::span<const SideCode> opposite, std::span<const SideCode> leaders,
-                     const Context& context);
+                     Index pointels, const Context& context);
 
 }  // namespace dsc::topology

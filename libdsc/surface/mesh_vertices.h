@@ -22,9 +22,11 @@ struct MeshVertices {
   std::vector<VertexId> pointel_of;  ///< of mesh vertices pointels + k
   std::vector<VertexId> umbrella_of_copy;  ///< of mesh vertices umbrellas + k
 
-  /// Per face corner its mesh vertex, and its umbrella; empty where that is its pointel throughout.
-  std::vector<QuadCorners> corners;
-  std::vector<QuadCorners> umbrella_corners;
+  /// The umbrella of mesh vertex v, as its number.
+  VertexId umbrella_of(Index v) const {
+    return v < umbrellas ? static_cast<VertexId>(v)
+                         : umbrella_of_copy[static_cast<std::size_t>(v - umbrellas)];
+  }
 };
 
 /// Numbers the mesh vertices. `corners` holds pointels in [0, pointels).

@@ -4,8 +4,7 @@
 #include "libdsc/surface/halfedges.h"
 #include "libdsc/surface/mesh_vertices.h"
 #include "libdsc/surface/surface_counts.h"
-
-#include <algorithm>
+#include "libdsc/surface/umbrellas.h"
 
 namespace dsc {
 
@@ -15,6 +14,9 @@ SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bo
   surface_.grid_ = grid;
   surface_.vertex_count_ = vertices;
   if (with_labels) surface_.mesh().add_property(surface_.labels_, property::kLabels);
+  // A few more vertices are common, and would move all the others.
+  surface_.mesh().reserve(static_cast<std::size_t>(vertices + vertices / 16), 0,
+                          static_cast<std::size_t>(faces));
   surface_.mesh().resize(static_cast<std::size_t>(vertices), 0, static_cast<std::size_t>(faces));
   opposite_.resize(static_cast<std::size_t>(4 * faces));
 }
@@ -55,9 +57,7 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
   context.advance(1);
 
   SurfaceMesh& mesh = surface_.mesh();
-  const std::span<const QuadCorners> mesh_corners =
-      vertices.corners.empty() ? corners() : std::span<const QuadCorners>(vertices.corners);
-  topology::write_halfedges(mesh, mesh_corners, opposite_, vertices.leaders, context);
+  topology::write_halfedges(mesh, corners(), opposite_, vertices.leaders, pointels, context);
   const auto points = positions();
   OpenMesh::VPropHandleT<VertexId> ids;
   mesh.add_property(ids, property::kVertexId);
@@ -67,16 +67,19 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
     if (index >= pointels) {
       const VertexId pointel = vertices.pointel_of[v - static_cast<std::size_t>(pointels)];
       points[v] = points[static_cast<std::size_t>(pointel)];
-      if (glue == Glue::pointel) id = pointel;
-    }
-    if (index >= vertices.umbrellas && glue == Glue::umbrella) {
-      id = vertices.umbrella_of_copy[v - static_cast<std::size_t>(vertices.umbrellas)];
+      id = glue == Glue::pointel ? pointel : vertices.umbrella_of(index);
     }
     mesh.property(ids, OpenMesh::VertexHandle(static_cast<int>(v))) = id;
   }
   if (glue == Glue::umbrella) {
-    std::copy(vertices.umbrella_corners.begin(), vertices.umbrella_corners.end(),
-              corners().begin());
+    const auto table = corners();
+    for (Index v = pointels; v < static_cast<Index>(vertices.leaders.size()); ++v) {
+      topology::for_each_around(
+          vertices.leaders[static_cast<std::size_t>(v)], opposite_, [&](topology::SideCode c) {
+            table[static_cast<std::size_t>(topology::face_of(c))][static_cast<std::size_t>(c & 3)] =
+                vertices.umbrella_of(v);
+          });
+    }
     surface_.vertex_count_ = vertices.umbrellas;
   }
   surface_.adjacency_ = adjacency;

@@ -12,7 +12,7 @@ namespace dsc {
 namespace {
 
 /// Rows that are looked at together; where they are all alike, not one by one.
-constexpr Index kBlock = 64;
+constexpr Index kBlock = 32;
 
 /// The cells of one slice, word after word.
 template <class Cells>
