@@ -28,6 +28,8 @@ using topology::Places;
 using topology::SideCode;
 using topology::Voxel;
 
+constexpr int kOwnRow = CellNeighbourhood::row(0, 0);
+
 /// Fills a builder with all surfels of a volume, word after word.
 template <class Cells>
 class Extraction {
@@ -98,7 +100,14 @@ class Extraction {
     const Places& places = kPlaces[static_cast<std::size_t>(d)];
     for (std::size_t i = 0; i < 4; ++i) {
       const Place& corner = places.corners[i];
-      corners_[f][i] = static_cast<VertexId>(near.vertex_id(bit + corner.dx, corner.row));
+      if (corner.dx == 0) corners_[f][i] = static_cast<VertexId>(near.vertex_id(bit, corner.row));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Place& corner = places.corners[i];
+      if (corner.dx == 0) continue;
+      corners_[f][i] = bit < 63  // the next pointel of the same word
+                           ? corners_[f][places.before[i]] + 1
+                           : static_cast<VertexId>(near.vertex_id(bit + 1, corner.row));
     }
     for (int i = 0; i < 4; ++i) {
       opposite_[4 * f + static_cast<std::size_t>(i)] =
@@ -123,7 +132,13 @@ class Extraction {
     const int e = kSideDirection[d][self & 3];
     const int back = topology::opposite_direction(e), down = topology::opposite_direction(d);
     const bool has_b = has(b), has_d = has(dd);
-    if (!has_b && !has_d) return side(c, d, back);
+    if (!has_b && !has_d) {
+      // Across a side that faces ±x lies the face before or after, unless it is of another word.
+      const bool same_word = c.row == kOwnRow && bit + c.dx >= 0 && bit + c.dx < 64;
+      const int facing = kSideFacing[d][back];
+      return same_word ? topology::side_code(topology::face_of(self) + c.dx, facing)
+                       : topology::side_code(near.face_id(c.axis, bit + c.dx, c.row), facing);
+    }
 
     const auto [in, out, in_e, out_e] = cells_.around(inner, d, e, has_b, has_d);
     const bool has_c = in_e != out_e;

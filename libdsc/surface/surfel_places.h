@@ -18,6 +18,8 @@ struct Place {
 /// Of a surfel: its corners, and around each side the three other surfels of the linel.
 struct Places {
   std::array<Place, 4> corners;
+  /// For a corner with dx = 1, the one with dx = 0 in its row.
+  std::array<std::size_t, 4> before{};
   std::array<std::array<Place, 3>, 4> beside;
 };
 
@@ -41,6 +43,12 @@ inline constexpr auto kPlaces = [] {
         return place(e >> 1, (e & 1) != 0 ? v.step(e) : v);
       };
       places.beside[i] = {across(inner), place(d >> 1, upper.step(e)), across(outer)};
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        const Place &low = places.corners[j], &high = places.corners[i];
+        if (low.row == high.row && low.dx < high.dx) places.before[i] = j;
+      }
     }
   }
   return table;

@@ -9,7 +9,9 @@ namespace dsc::topology {
 namespace {
 
 bool is_leader(SideCode corner, Opposite opposite) {
-  if (previous_around(corner, opposite) == kNoSide) return true;
+  const SideCode previous = previous_around(corner, opposite);
+  if (previous == kNoSide) return true;
+  if (previous < corner) return false;
   for (SideCode c = next_around(corner, opposite); c != corner; c = next_around(c, opposite)) {
     if (c < corner) return false;  // kNoSide, a chain's end, is less than any corner
   }
