@@ -13,6 +13,8 @@ namespace dsc {
 namespace {
 
 constexpr Index kGrain = 4096;
+/// What a slot of a byte can hold.
+constexpr std::size_t kMostSurfelEntries = 255;
 
 /// A small sorted set of vertices, kept in place from column to column.
 class Column {
@@ -57,11 +59,8 @@ LaplacianPattern::LaplacianPattern(const FlatMesh& mesh, const Context& context)
     }
   }
   find_incident(mesh, context);
-  if (digital_) {
-    find_columns(mesh, surfel_slots_, context);
-  } else {
-    find_columns(mesh, polygon_slots_, context);
-  }
+  find_columns(mesh, context);
+  if (digital_) find_blocks();
 }
 
 /// A counting sort of the corners by vertex.
@@ -100,11 +99,13 @@ void LaplacianPattern::find_incident(const FlatMesh& mesh, const Context& contex
   incident_begin_[0] = 0;
 }
 
-template <class Slot>
-void LaplacianPattern::find_columns(const FlatMesh& mesh, std::vector<Slot>& slots,
-                                    const Context& context) {
+void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context) {
   const Index V = mesh.vertices();
-  slots.resize(static_cast<std::size_t>(pairs_before(faces_)));
+  if (digital_) {
+    surfel_slots_.resize(incident_.size());
+  } else {
+    polygon_slots_.resize(static_cast<std::size_t>(pairs_before(faces_)));
+  }
   std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kGrain - 1) / kGrain));
   outer_.assign(static_cast<std::size_t>(V) + 1, 0);
 
@@ -126,7 +127,7 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, std::vector<Slot>& slo
         }
         column.sort_unique();
       }
-      if (static_cast<Index>(column.ids().size()) > std::numeric_limits<Slot>::max()) {
+      if (digital_ && column.ids().size() > kMostSurfelEntries) {
         throw InputError("vertex " + std::to_string(v) + " has " +
                          std::to_string(column.ids().size()) +
                          " neighbours, more than a digital surface can have at a pointel");
@@ -134,9 +135,16 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, std::vector<Slot>& slo
       for (std::int32_t k = begin; k < end; ++k) {
         const Place at = place(mesh, k);
         const auto ids = mesh.face(at.face);
-        Slot* row =
-            slots.data() + pairs_before(at.face) + at.corner * static_cast<Index>(ids.size());
-        for (const VertexId id : ids) *row++ = static_cast<Slot>(column.position(id));
+        if (digital_) {
+          for (std::size_t j = 0; j < 4; ++j) {
+            surfel_slots_[static_cast<std::size_t>(k)][j] = static_cast<std::uint8_t>(
+                column.position(ids[static_cast<std::size_t>(at.corner) ^ j]));
+          }
+          continue;
+        }
+        std::int32_t* row = polygon_slots_.data() + pairs_before(at.face) +
+                            at.corner * static_cast<Index>(ids.size());
+        for (const VertexId id : ids) *row++ = static_cast<std::int32_t>(column.position(id));
       }
       part.insert(part.end(), column.ids().begin(), column.ids().end());
       outer_[static_cast<std::size_t>(v) + 1] = static_cast<std::int32_t>(column.ids().size());
@@ -156,6 +164,27 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, std::vector<Slot>& slo
     std::copy(part.begin(), part.end(), inner_.begin() + outer_[static_cast<std::size_t>(first)]);
     std::vector<VertexId>().swap(part);
   });
+}
+
+void LaplacianPattern::find_blocks() {
+  // The faces of a block, 32 bytes each, should stay in the cache of a core; but those between two
+  // blocks, about one slice of the volume, are computed for both.
+  constexpr Index kBlock = 32768;
+  Index done = 0, total = 0;
+  for (Index v = 0; v < vertices(); v += kBlock) {
+    Block block{v, std::min(v + kBlock, vertices()), done, done, done};
+    const auto first = incident_begin_[static_cast<std::size_t>(block.first_vertex)];
+    const auto last = incident_begin_[static_cast<std::size_t>(block.last_vertex)];
+    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+      const Index face = incident_[k] >> 2;
+      block.first_face = std::min(block.first_face, face);
+      block.last_face = std::max(block.last_face, face + 1);
+    }
+    total += block.last_face - block.first_face;
+    done = block.last_face;
+    blocks_.push_back(block);
+  }
+  if (total > 2 * faces_ + kBlock) blocks_.clear();
 }
 
 LaplaceSystem LaplacianPattern::assemble(const FlatMesh& mesh, const CalculusOptions& options,

@@ -13,6 +13,7 @@
 #include "libdsc/calculus/options.h"
 #include "libdsc/surface/flat_mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -41,12 +42,19 @@ class LaplacianPattern {
 
  private:
   void find_incident(const FlatMesh& mesh, const Context& context);
-  template <class Slot>
-  void find_columns(const FlatMesh& mesh, std::vector<Slot>& slots, const Context& context);
+  void find_columns(const FlatMesh& mesh, const Context& context);
   Index fill_surfels(const FlatMesh& mesh, const CalculusOptions& options, double* values,
                      double* mass, const Context& context) const;
   Index fill_polygons(const FlatMesh& mesh, const CalculusOptions& options, double* values,
                       double* mass, const Context& context) const;
+
+  /// Vertices that are filled together, and the faces around them.
+  struct Block {
+    Index first_vertex, last_vertex;
+    Index first_face, last_face;
+    Index own_face;  ///< faces from here on are in no earlier block
+  };
+  void find_blocks();
 
   /// The face of an incident corner and the corner's place in it.
   struct Place {
@@ -71,10 +79,15 @@ class LaplacianPattern {
   std::vector<std::int32_t> incident_;        ///< C corners, by vertex, ascending
   std::vector<std::int32_t> incident_face_;   ///< their faces; empty where all are quads
   std::vector<Index> pairs_;                  ///< F + 1; empty where all are quads
-  /// For corners i, j of a face, the position of j's vertex in the column of i's. Bytes for
-  /// surfels, whose columns have at most 27 entries.
-  std::vector<std::uint8_t> surfel_slots_;
+  /// Of surfels, whose columns have at most 27 entries: for each incident corner i, in the order of
+  /// incident_, the positions of the vertices of corners i, i xor 1, i xor 2 and i xor 3 in the
+  /// column.
+  std::vector<std::array<std::uint8_t, 4>> surfel_slots_;
+  /// Of polygons: for corners i, j of a face, the position of j's vertex in the column of i's.
   std::vector<std::int32_t> polygon_slots_;
+  /// Of surfels: all vertices, in ranges. Empty where the numbering of the faces does not follow
+  /// that of the vertices, so that the faces around a range would be too many.
+  std::vector<Block> blocks_;
 };
 
 }  // namespace dsc

@@ -28,6 +28,7 @@ struct SurfelShape {
   int x = 0, y = 1, z = 2;  ///< world axes of the frame
   double sign = 1.;         ///< the frame's z axis is sign × world axis z
   double hx = 1., hy = 1.;
+  double yx = hy / hx, xy = hx / hy;  ///< divided once, not for each surfel
 
   double area() const { return hx * hy; }
 };
@@ -109,11 +110,9 @@ class SurfelOperators {
   Vec3 normal() const { return world(ux_, uy_, uz_); }
 
   SurfelLaplacian laplacian() const {
-    const double yx = shape_.hy / shape_.hx;
-    const double xy = shape_.hx / shape_.hy;
     const double quarter = 0.25 / uz_;
-    const double a = yx * (1. - uy_ * uy_) * quarter;
-    const double b = xy * (1. - ux_ * ux_) * quarter;
+    const double a = shape_.yx * (1. - uy_ * uy_) * quarter;
+    const double b = shape_.xy * (1. - ux_ * ux_) * quarter;
     return {a + b, 2. * ux_ * uy_ * quarter, a - b, area()};
   }
   /// G φ, the gradient of the corner values, in world axes.

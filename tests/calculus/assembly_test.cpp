@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 
 namespace dsc {
 namespace {
@@ -93,6 +95,38 @@ TEST(Assembly, ThreadsDoNotChangeABit) {
       EXPECT_EQ(one.clamped_faces, many.clamped_faces);
     }
   }
+}
+
+TEST(Assembly, FacesInAnyOrderGiveTheSameSystem) {
+  // So many vertices that they are filled in several blocks, with faces between the blocks, and
+  // shuffled so that they are not.
+  OwnedMesh ordered = testing::digital_mesh(testing::random_voxels(48, 5), Vec3(1., 1.5, 0.5));
+  testing::add_normals(ordered, 1.5, 4);
+  ASSERT_GT(ordered.view().vertices(), 3 * 32768);
+  std::vector<std::size_t> order(ordered.surfels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), std::mt19937(6));
+  OwnedMesh shuffled = ordered;
+  for (std::size_t f = 0; f < order.size(); ++f) {
+    shuffled.surfels[f] = ordered.surfels[order[f]];
+    for (std::size_t i = 0; i < 4; ++i) {
+      shuffled.corners[4 * f + i] = ordered.corners[4 * order[f] + i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      shuffled.normals[3 * f + i] = ordered.normals[3 * order[f] + i];
+    }
+  }
+  const LaplaceSystem a = assemble_laplacian(ordered.view(), {}, Context{1});
+  const LaplaceSystem b = assemble_laplacian(shuffled.view());
+  EXPECT_LT((a.L - b.L).norm(), 1e-13 * a.L.norm());
+  EXPECT_LT((a.mass - b.mass).norm(), 1e-13 * a.mass.norm());
+  EXPECT_GT(a.clamped_faces, 0);
+  EXPECT_EQ(a.clamped_faces, b.clamped_faces);
+
+  const LaplaceSystem c = assemble_laplacian(ordered.view(), {}, Context{4});
+  EXPECT_TRUE(std::equal(a.L.valuePtr(), a.L.valuePtr() + a.L.nonZeros(), c.L.valuePtr()));
+  EXPECT_EQ(a.mass, c.mass);
+  EXPECT_EQ(a.clamped_faces, c.clamped_faces);
 }
 
 TEST(Assembly, RefillIsAFreshAssembly) {
