@@ -167,7 +167,7 @@ class Extraction {
   std::span<LabelPair> labels_;
   std::span<QuadCorners> corners_;
   std::span<OpenMesh::Vec3d> positions_;
-  std::vector<SideCode>& opposite_;
+  std::span<SideCode> opposite_;
 };
 
 /// Which faces the options keep; empty where all are kept.

@@ -3,6 +3,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/surface/umbrellas.h"
 
+#include <memory>
 #include <vector>
 
 namespace dsc::topology {
@@ -30,7 +31,7 @@ void write_halfedges(SurfaceMesh& mesh, std::span<const QuadCorners> corners,
   for (std::size_t c = 1; c < edge_base.size(); ++c) edge_base[c] += edge_base[c - 1];
 
   mesh.resize(leaders.size(), static_cast<std::size_t>(edge_base.back()), corners.size());
-  std::vector<int> halfedge(opposite.size());
+  const auto halfedge = std::make_unique_for_overwrite<int[]>(opposite.size());
   parallel_for(context, faces, kGrain, [&](Index first, Index last) {
     auto edge = static_cast<int>(edge_base[static_cast<std::size_t>(first / kGrain)]);
     for (SideCode s = side_code(first, 0); s < side_code(last, 0); ++s) {

@@ -46,7 +46,7 @@ struct SplitCorner {
 /// Links the edges the other way round. Returns corners of the umbrellas that were split, one of
 /// each part at least.
 std::vector<SplitCorner> separate(std::span<const ParallelEdges> edges,
-                                  std::vector<SideCode>& opposite) {
+                                  std::span<SideCode> opposite) {
   std::vector<SplitCorner> split;
   const auto same_umbrella = [&](SideCode a, SideCode b) {
     return leader_of(a, opposite) == leader_of(b, opposite);
@@ -70,8 +70,8 @@ std::vector<SplitCorner> separate(std::span<const ParallelEdges> edges,
 }  // namespace
 
 MeshVertices number_mesh_vertices(std::span<const QuadCorners> corners, Index pointels,
-                                  std::vector<SideCode>& opposite,
-                                  std::span<const Junction> junctions, const Context& context) {
+                                  std::span<SideCode> opposite, std::span<const Junction> junctions,
+                                  const Context& context) {
   MeshVertices result;
   Umbrellas umbrellas = find_umbrellas(corners, opposite, pointels, context);
   result.pointels = pointels;

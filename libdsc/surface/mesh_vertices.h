@@ -35,7 +35,7 @@ struct MeshVertices {
 /// `opposite`, which splits the umbrellas at both their ends: exchanging the partners of two sides
 /// that one orbit crosses cuts that orbit in two.
 MeshVertices number_mesh_vertices(std::span<const QuadCorners> corners, Index pointels,
-                                  std::vector<SideCode>& opposite,
-                                  std::span<const Junction> junctions, const Context& context);
+                                  std::span<SideCode> opposite, std::span<const Junction> junctions,
+                                  const Context& context);
 
 }  // namespace dsc::topology

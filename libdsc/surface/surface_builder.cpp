@@ -18,7 +18,8 @@ SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bo
   surface_.mesh().reserve(static_cast<std::size_t>(vertices + vertices / 16), 0,
                           static_cast<std::size_t>(faces));
   surface_.mesh().resize(static_cast<std::size_t>(vertices), 0, static_cast<std::size_t>(faces));
-  opposite_.resize(static_cast<std::size_t>(4 * faces));
+  opposite_ =
+      std::make_unique_for_overwrite<topology::SideCode[]>(static_cast<std::size_t>(4 * faces));
 }
 
 std::span<Surfel> SurfaceBuilder::surfels() {
@@ -49,15 +50,15 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
   const Index pointels = surface_.vertex_count_;
   context.begin("link", 3);
   SurfaceCounts& counts = surface_.counts_;
-  counts = topology::count_glued(corners(), pointels, opposite_, junctions_, labels(), context);
+  counts = topology::count_glued(corners(), pointels, opposite(), junctions_, labels(), context);
   context.advance(1);
   const topology::MeshVertices vertices =
-      topology::number_mesh_vertices(corners(), pointels, opposite_, junctions_, context);
+      topology::number_mesh_vertices(corners(), pointels, opposite(), junctions_, context);
   counts.pinched_vertices = vertices.pinched;
   context.advance(1);
 
   SurfaceMesh& mesh = surface_.mesh();
-  topology::write_halfedges(mesh, corners(), opposite_, vertices.leaders, pointels, context);
+  topology::write_halfedges(mesh, corners(), opposite(), vertices.leaders, pointels, context);
   const auto points = positions();
   OpenMesh::VPropHandleT<VertexId> ids;
   mesh.add_property(ids, property::kVertexId);
@@ -75,7 +76,7 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
     const auto table = corners();
     for (Index v = pointels; v < static_cast<Index>(vertices.leaders.size()); ++v) {
       topology::for_each_around(
-          vertices.leaders[static_cast<std::size_t>(v)], opposite_, [&](topology::SideCode c) {
+          vertices.leaders[static_cast<std::size_t>(v)], opposite(), [&](topology::SideCode c) {
             table[static_cast<std::size_t>(topology::face_of(c))][static_cast<std::size_t>(c & 3)] =
                 vertices.umbrella_of(v);
           });

@@ -14,6 +14,7 @@
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/topology.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,9 @@ class SurfaceBuilder {
   std::span<OpenMesh::Vec3d> positions();  ///< world positions of the pointels
   /// Per side code the code of the side that it is linked to, or kNoSide. Symmetric; a side is
   /// linked to one that runs along the same linel the other way.
-  std::vector<topology::SideCode>& opposite() { return opposite_; }
+  std::span<topology::SideCode> opposite() {
+    return {opposite_.get(), 4 * surface_.mesh().n_faces()};
+  }
   /// Every linel with more than two surfels, or with two that are not linked.
   std::vector<topology::Junction>& junctions() { return junctions_; }
 
@@ -42,7 +45,7 @@ class SurfaceBuilder {
 
  private:
   DigitalSurface surface_;
-  std::vector<topology::SideCode> opposite_;
+  std::unique_ptr<topology::SideCode[]> opposite_;  ///< not cleared: every side is written
   std::vector<topology::Junction> junctions_;
 };
 
