@@ -29,6 +29,7 @@ class Monitor {
   /// Asks the computation to stop at its next chunk. Safe from any thread and from a signal
   /// handler.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  /// Whether cancel() has been called.
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
 
  private:
@@ -41,12 +42,15 @@ struct Context {
   int threads = 0;             ///< 0: one per core
   Monitor* monitor = nullptr;  ///< not owned; may be null
 
+  /// Tells the monitor, where there is one.
+  /// @{
   void begin(std::string_view stage, Index total = 0) const {
     if (monitor != nullptr) monitor->begin(stage, total);
   }
   void advance(Index units) const noexcept {
     if (monitor != nullptr) monitor->advance(units);
   }
+  /// @}
   /// \throws Cancelled where the monitor has been asked to stop.
   void check() const {
     if (monitor != nullptr && monitor->cancelled()) throw Cancelled();

@@ -9,10 +9,10 @@ namespace dsc {
 
 /// Of the quadratic form of M on the vectors across n: its extremes and where they are attained.
 struct TangentEigen {
-  double low = 0;
-  double high = 0;
-  Vec3 low_direction = Vec3::UnitX();  ///< unit, across n, its sign arbitrary
-  Vec3 high_direction = Vec3::UnitY();
+  double low = 0;                       ///< the least value on unit vectors
+  double high = 0;                      ///< the greatest
+  Vec3 low_direction = Vec3::UnitX();   ///< unit, across n, its sign arbitrary
+  Vec3 high_direction = Vec3::UnitY();  ///< across n and low_direction
 };
 
 /// M symmetric and finite, n a unit vector. Where low = high every direction attains them, and some

@@ -17,19 +17,25 @@ using Index = std::int64_t;
 /// handle.
 using VertexId = std::int32_t;
 
+/// A point or a vector in space, a 3 x 3 matrix; doubles.
+/// @{
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+/// @}
 
 /// Column-major with 32-bit inner indices: the form that Eigen's and CHOLMOD's solvers take.
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// 3 x n doubles in memory that somebody else owns: column i is the i-th vector.
 struct Vec3View {
-  const double* data = nullptr;
-  Index size = 0;
+  const double* data = nullptr;  ///< 3 size doubles
+  Index size = 0;                ///< n
 
+  /// Vector i, 0 <= i < size.
   Vec3 operator[](Index i) const { return Vec3(data[3 * i], data[3 * i + 1], data[3 * i + 2]); }
+  /// Whether there is no vector.
   bool empty() const { return size == 0; }
+  /// The same memory as a 3 x n matrix of Eigen.
   Eigen::Map<const Eigen::Matrix3Xd> matrix() const { return {data, 3, size}; }
 };
 

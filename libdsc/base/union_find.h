@@ -14,10 +14,12 @@ namespace dsc {
 /// do not depend on the order of the joins, nor on threads.
 class UnionFind {
  public:
+  /// n sets of one member each; n at most 2^31 - 1.
   explicit UnionFind(Index n) : parent_(static_cast<std::size_t>(n)) {
     for (Index i = 0; i < n; ++i) parent_[static_cast<std::size_t>(i)] = static_cast<VertexId>(i);
   }
 
+  /// The root of the set of i; halves the path to it on the way.
   VertexId find(VertexId i) {
     for (;;) {
       const VertexId p = load(i);
@@ -28,6 +30,7 @@ class UnionFind {
     }
   }
 
+  /// Makes one set of those of a and b.
   void join(VertexId a, VertexId b) {
     if (load(a) == load(b)) return;  // the usual case, and sets never part
     for (;;) {
