@@ -15,8 +15,10 @@
 
 namespace dsc {
 
+/// Bits of a set of voxels on a grid; see the head of this file for their order.
 class BinaryVolume {
  public:
+  /// 64 voxels of a row.
   using Word = std::uint64_t;
 
   BinaryVolume() = default;
@@ -24,6 +26,7 @@ class BinaryVolume {
   /// finite, LimitError on overflow or where memory does not suffice.
   explicit BinaryVolume(const Grid& grid);
 
+  /// Size, spacing and origin.
   const Grid& grid() const { return grid_; }
 
   /// Whether voxel (x, y, z) is in the set; false anywhere outside the grid.
@@ -52,8 +55,9 @@ class BinaryVolume {
 
   /// Words that hold a row along x with its margin: bit b of word w is x = 64 w + b - 1.
   Index words_per_row() const { return words_per_row_; }
-  /// Words between a row and the row of the next word (y + 2 margins), and of the next z.
+  /// Words between a row and the row of the next word (y + 2 margins).
   Index word_stride() const { return word_stride_; }
+  /// Words between a row and the row of the next z.
   Index slice_stride() const { return slice_stride_; }
 
   /// Word w of row (y, z); w in [0, words_per_row()), y in [-1, size y], z in [-1, size z].
@@ -66,8 +70,10 @@ class BinaryVolume {
   /// Replaces word w of row (y, z). Precondition: the bits of the margin are 0.
   void set_word(Index w, Index y, Index z, Word value) { words_[index(w, y, z)] = value; }
 
+  /// The bytes of all words, margins and slack included.
   std::size_t memory_bytes() const { return words_.size() * sizeof(Word); }
 
+  /// Words of 0 before and after those of the volume; see word_address().
   static constexpr Index kSlack = 8;
 
  private:

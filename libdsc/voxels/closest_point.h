@@ -19,6 +19,7 @@
 
 namespace dsc {
 
+/// What the search ends at.
 struct ClosestPoint {
   Vec3 point;              ///< the best found; p itself where nothing was
   bool converged = false;  ///< whether the conditions above hold
@@ -36,6 +37,7 @@ ClosestPoint closest_point_by_newton(const ImplicitShape& shape, const Vec3& p);
 ClosestPoint closest_point_by_newton_from(const ImplicitShape& shape, const Vec3& p,
                                           const Vec3& start);
 
+/// The closest points of many.
 struct ProjectedPoints {
   Eigen::Matrix3Xd points;  ///< column i is the closest point of point i
   Index failures = 0;       ///< points that did not converge; they hold the best point found

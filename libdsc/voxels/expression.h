@@ -16,6 +16,7 @@
 
 namespace dsc {
 
+/// A function parsed once; the operators below evaluate it.
 class Expression {
  public:
   /// \throws UsageError with the position of the fault, counted from 1, where `text` is no
@@ -25,6 +26,7 @@ class Expression {
   Expression& operator=(Expression&&) noexcept;
   ~Expression();
 
+  /// As it was given.
   const std::string& text() const;
 
   /// The value at p. \throws InputError naming the point where it is not finite.
@@ -38,6 +40,7 @@ class Expression {
   /// expression must outlive it.
   class Evaluator {
    public:
+    /// Borrows the parser; it goes back at the end of this object.
     explicit Evaluator(const Expression& expression);
     Evaluator(const Evaluator&) = delete;
     Evaluator& operator=(const Evaluator&) = delete;

@@ -14,6 +14,7 @@
 
 namespace dsc {
 
+/// {p in box : f(p) < 0} for the f of an expression.
 class ExpressionShape final : public ImplicitShape {
  public:
   /// \throws UsageError where the text is no expression, or the box is empty or not finite.

@@ -10,6 +10,7 @@
 
 namespace dsc {
 
+/// Size, spacing and place of a volume; the default has no voxel.
 struct Grid {
   Index3 size{0, 0, 0};      ///< voxels along x, y, z
   Vec3 spacing{1., 1., 1.};  ///< edge lengths of a voxel, world units, all > 0
@@ -25,6 +26,7 @@ struct Grid {
   Index voxels() const {
     return checked_product(checked_product(size[0], size[1], "voxels"), size[2], "voxels");
   }
+  /// Whether (x, y, z) is a voxel of the grid.
   bool contains(Index x, Index y, Index z) const {
     return x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
   }

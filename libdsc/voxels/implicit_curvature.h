@@ -13,11 +13,12 @@
 
 namespace dsc {
 
+/// Curvatures, their directions and the normal at one point.
 struct ImplicitCurvature {
-  double mean = 0;      ///< (kappa_1 + kappa_2) / 2, 1 / length
-  double gaussian = 0;  ///< kappa_1 kappa_2
-  double kappa_1 = 0;   ///< the smaller one
-  double kappa_2 = 0;
+  double mean = 0;                   ///< (kappa_1 + kappa_2) / 2, 1 / length
+  double gaussian = 0;               ///< kappa_1 kappa_2
+  double kappa_1 = 0;                ///< the smaller one
+  double kappa_2 = 0;                ///< the larger one
   Vec3 direction_1 = Vec3::UnitX();  ///< unit tangents, their signs arbitrary; any orthonormal pair
   Vec3 direction_2 = Vec3::UnitY();  ///< where kappa_1 = kappa_2
   Vec3 normal = Vec3::UnitZ();       ///< unit, outwards

@@ -15,6 +15,7 @@
 
 namespace dsc {
 
+/// The function, its derivatives and the box; the base of the named shapes and of expressions.
 class ImplicitShape {
  public:
   ImplicitShape() = default;
@@ -24,7 +25,9 @@ class ImplicitShape {
 
   /// f at p, in world units. \throws InputError where f is not finite (expressions only).
   virtual double value(const Vec3& p) const = 0;
+  /// The gradient of f at p, along the world axes.
   virtual Vec3 gradient(const Vec3& p) const = 0;
+  /// The Hessian of f at p, symmetric.
   virtual Mat3 hessian(const Vec3& p) const = 0;
 
   /// Finite. Contains {f <= 0} where closed(); otherwise the box that cuts it.

@@ -13,6 +13,7 @@
 
 namespace dsc {
 
+/// The number of a voxel; 0 is the outside.
 using Label = std::uint32_t;
 
 /// The two labels that a surfel separates: its inside's, its outside's. The smaller one is inside,
@@ -22,6 +23,7 @@ using LabelPair = std::array<Label, 2>;
 /// Whether a voxel labelled `a` is on the inside of a surfel against one labelled `b`.
 constexpr bool is_inner(Label a, Label b) { return a - 1 < b - 1; }  // 0 wraps to the largest
 
+/// Labels of all voxels of a grid, in 1, 2 or 4 bytes each.
 class LabelVolume {
  public:
   LabelVolume() = default;
@@ -29,6 +31,7 @@ class LabelVolume {
   /// another width.
   LabelVolume(const Grid& grid, int bytes);
 
+  /// Size, spacing and origin.
   const Grid& grid() const { return grid_; }
   /// The largest label that fits.
   Label largest() const;
@@ -58,6 +61,7 @@ class LabelVolume {
   /// The voxels that have one of the labels given.
   BinaryVolume select(std::span<const Label> labels, const Context& context = {}) const;
 
+  /// The bytes of all labels.
   std::size_t memory_bytes() const;
 
  private:

@@ -10,9 +10,10 @@
 
 namespace dsc {
 
+/// A rotation, possibly with a reflection, and a translation; the identity by default.
 struct RigidMap {
   Mat3 rotation = Mat3::Identity();  ///< orthogonal; of determinant -1 where the map mirrors
-  Vec3 translation = Vec3::Zero();
+  Vec3 translation = Vec3::Zero();   ///< world units
 
   /// The world position of p.
   Vec3 operator()(const Vec3& p) const { return rotation * p + translation; }
@@ -23,6 +24,7 @@ struct RigidMap {
 
   /// A face's corners then run the other way around its outward normal.
   bool mirrors() const;
+  /// Whether it leaves every position as it is, to the last bit.
   bool is_identity() const;
 };
 

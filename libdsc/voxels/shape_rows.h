@@ -1,6 +1,6 @@
 /// \file
-/// How shapes fill a row of values fast: an inlined function over a word of 64 points. Private to
-/// the shapes.
+/// \internal
+/// How shapes fill a row of values fast: an inlined function over a word of 64 points.
 #pragma once
 
 #include "libdsc/base/types.h"
