@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The cells of a binary volume's boundary, as bits, straight from the volume's own words.
 ///
 /// Every cell belongs to the bit of its low corner: the surfel across `axis` that has voxel q on

@@ -33,30 +33,44 @@ struct SurfaceCounts {
   Index pinched_vertices = 0;   ///< pointels with more than one umbrella
 };
 
+/// The surface; made by extract_surface(), empty by default. A copy has a mesh, properties
+/// included, of its own.
 class DigitalSurface {
  public:
   DigitalSurface();
+  /// The mesh with all its properties is copied.
+  /// @{
   DigitalSurface(const DigitalSurface& other);
-  DigitalSurface(DigitalSurface&&) noexcept = default;
   DigitalSurface& operator=(const DigitalSurface& other);
+  /// @}
+  DigitalSurface(DigitalSurface&&) noexcept = default;
   DigitalSurface& operator=(DigitalSurface&&) noexcept = default;
   ~DigitalSurface() = default;
 
   /// The mesh; its properties carry normals and results. Do not change its connectivity.
   SurfaceMesh& mesh() { return *mesh_; }
+  /// The same, to read.
   const SurfaceMesh& mesh() const { return *mesh_; }
 
+  /// The grid of the volume that it was extracted from.
   const Grid& grid() const { return grid_; }
+  /// As asked of extract_surface().
+  /// @{
   Adjacency adjacency() const { return adjacency_; }
   Glue glue() const { return glue_; }
+  /// @}
+
+  /// What it is made of, counted when it was extracted.
   const SurfaceCounts& counts() const { return counts_; }
 
   /// The number of vertex ids V: the length of every scalar function on this surface.
   Index vertex_count() const { return vertex_count_; }
+  /// The number of surfels F.
   Index face_count() const { return counts_.faces; }
 
-  /// Per face: the vertex ids of its corners, its surfel.
+  /// Per face the vertex ids of its corners: the side table.
   std::span<const QuadCorners> corners() const;
+  /// Per face its surfel.
   std::span<const Surfel> surfels() const;
   /// Per face the labels inside and outside; empty where the surface is not of a label volume.
   std::span<const LabelPair> labels() const;
@@ -73,6 +87,7 @@ class DigitalSurface {
   Vec3View normals() const;
   /// Writes `dsc:normal`. `u` is 3 x F, unit columns. \throws UsageError on another shape.
   void set_normals(const Eigen::Ref<const Eigen::Matrix3Xd>& u);
+  /// Removes `dsc:normal`, where it is: flat() then gives the naive calculus.
   void remove_normals();
 
   /// What the calculus reads; the view lives as long as this surface. Where `with_normals` is

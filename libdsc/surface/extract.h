@@ -21,10 +21,11 @@ enum class Border {
   open,    ///< none: the surface has a boundary there
 };
 
+/// Which surfels are taken, and how they are linked and glued.
 struct ExtractOptions {
-  Adjacency adjacency = Adjacency::interior;
-  Glue glue = Glue::pointel;
-  Border border = Border::closed;
+  Adjacency adjacency = Adjacency::interior;  ///< at linels with four surfels
+  Glue glue = Glue::pointel;                  ///< what vertex ids stand for
+  Border border = Border::closed;             ///< at the border of the volume
   /// Keeps only the surfels for which it is true; all where it is empty. Called from many threads.
   std::function<bool(const Surfel&)> part;
   /// For label volumes: only the interfaces between these pairs of labels, in either order; all

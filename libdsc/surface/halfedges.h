@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Writes OpenMesh's halfedge connectivity from linked sides.
 #pragma once
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The cells of all interfaces of a label volume, as bits: a surfel wherever two neighbours' labels
 /// differ. Numbered as in binary_cells.h; 3 bits a voxel are kept.
 #pragma once

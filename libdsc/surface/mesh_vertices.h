@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Which vertices the halfedge mesh of a digital surface gets: one an umbrella, and copies where
 /// two parallel edges would join the same two.
 #pragma once

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// From linked surfels to a halfedge mesh.
 ///
 /// A builder is filled with faces (their surfels, the vertex ids of their corners), positions, and
@@ -7,7 +8,7 @@
 /// links make a vertex that a halfedge mesh cannot hold, the mesh gets one vertex more, not one
 /// face less.
 ///
-/// For the layer's own use: extraction from binary and from label volumes, and of parts.
+/// Used by extraction from binary and from label volumes, and of parts.
 #pragma once
 
 #include "libdsc/base/context.h"

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Counts of a surface glued by pointel, from its links.
 #pragma once
 

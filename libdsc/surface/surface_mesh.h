@@ -13,10 +13,11 @@ namespace dsc {
 
 /// Double positions, no per-element attributes beyond the connectivity (prev included).
 struct SurfaceTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
+  using Point = OpenMesh::Vec3d;   ///< double, not float
+  using Normal = OpenMesh::Vec3d;  ///< the same
 };
 
+/// The mesh of DigitalSurface, and what split_mesh() fills.
 using SurfaceMesh = OpenMesh::PolyMesh_ArrayKernelT<SurfaceTraits>;
 
 /// The vertex ids of a quad's corners, in the face's own order (kSurfelFrames).

@@ -11,11 +11,17 @@ namespace dsc {
 
 /// The square between voxel (x, y, z), on its inside, and that voxel's neighbour in `direction`.
 struct Surfel {
+  /// The inner voxel.
+  /// @{
   std::int32_t x = 0, y = 0, z = 0;
+  /// @}
+
   /// 2 * axis + (1 where the outward normal points along +axis, 0 where along -axis).
   std::int32_t direction = 0;
 
+  /// 0, 1 or 2: the axis across the square.
   int axis() const { return direction >> 1; }
+  /// 1 where the outward normal points along +axis, else -1.
   int sign() const { return (direction & 1) != 0 ? 1 : -1; }
   /// The outward unit normal e of the square itself (not the estimated one).
   Vec3 normal() const {
@@ -36,9 +42,10 @@ struct Surfel {
 /// `first` and `second`, and the corners follow 00, 10, 11, 01 in (first, second). The order is
 /// counter-clockwise seen from outside: first x second is the outward normal.
 struct SurfelFrame {
-  int first;
-  int second;
+  int first;   ///< axis, 0 to 2
+  int second;  ///< axis, 0 to 2
 };
+/// By Surfel::direction.
 inline constexpr SurfelFrame kSurfelFrames[6] = {
     {2, 1},  // -x: z x y = -x
     {1, 2},  // +x: y x z = +x

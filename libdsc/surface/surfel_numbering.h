@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Numbers for the surfels and pointels of a volume, found by counting bits.
 ///
 /// Every cell (surfel, pointel) belongs to the bit of its low corner (binary_cells.h). The cells of

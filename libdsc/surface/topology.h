@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// How surfels meet: the corners and sides of the six kinds of surfel, as tables.
 ///
 /// Side i of a face runs from corner i to corner i + 1 along a linel; it faces an in-plane

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Umbrellas: the orbits of face corners around a pointel under the links between sides.
 ///
 /// A corner is named like the side that starts there. Crossing side i of a face leads to the next
