@@ -12,6 +12,7 @@
 
 namespace dsc {
 
+/// Which lattice points a ball of the world has, whatever its centre.
 class Ball {
  public:
   /// The ball of world radius `radius` on a grid of that spacing.
@@ -29,7 +30,9 @@ class Ball {
 
   /// The largest |d| along the axis at which a point on that axis is in the ball.
   Index reach(int axis) const { return reach_[static_cast<std::size_t>(axis)]; }
+  /// World units.
   double radius() const { return radius_; }
+  /// Of the grid, world units.
   const Vec3& spacing() const { return spacing_; }
 
  private:
@@ -43,8 +46,10 @@ class Ball {
 /// The rows along x of a ball whose centre has the given parity (C_a mod 2).
 class BallRows {
  public:
+  /// `parity`: 0 or 1 per axis, 1 along at most one for voxels and surfels.
   BallRows(const Ball& ball, const Index3& parity);
 
+  /// As given.
   const Index3& parity() const { return parity_; }
   /// The largest |d| along the axis over the whole ball, of the right parity; -1 where it is empty.
   Index reach(int axis) const { return reach_[static_cast<std::size_t>(axis)]; }

@@ -1,5 +1,6 @@
 /// \file
-/// (internal) The inner loop of BallScanner on AVX2: four rows of a ball in one register.
+/// \internal
+/// The inner loop of BallScanner on AVX2: four rows of a ball in one register.
 ///
 /// A ball is cut into slices of constant z, a slice into strips of at most kStripGroups groups of
 /// four rows. A row is a window of 64 bits along x from the ball's leftmost column; bit P of it is

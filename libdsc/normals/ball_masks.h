@@ -1,5 +1,6 @@
 /// \file
-/// (internal) The vector path of BallScanner: the rows of one kind of ball as masks for
+/// \internal
+/// The vector path of BallScanner: the rows of one kind of ball as masks for
 /// ball_kernel.h. A ball wider than the kernel's registers is cut into blocks.
 #pragma once
 

@@ -13,8 +13,9 @@
 
 namespace dsc {
 
+/// The sums over the voxels in one ball; all 0 where it has none.
 struct BallMoments {
-  Index count = 0;
+  Index count = 0;        ///< voxels
   Index3 first{0, 0, 0};  ///< sum dx, dy, dz
   std::array<Index, 6> second{0, 0, 0,
                               0, 0, 0};  ///< sum of dx dx, dy dy, dz dz, dx dy, dx dz, dy dz
@@ -40,6 +41,7 @@ class BallScanner {
   BallScanner(const BallScanner&) = delete;
   BallScanner& operator=(const BallScanner&) = delete;
 
+  /// The ball that is scanned.
   const Ball& ball() const { return ball_; }
 
   /// Moments of the ball at `centre`, doubled: (2x, 2y, 2z) for a voxel's, 2x +- 1 along one axis

@@ -1,5 +1,6 @@
 /// \file
-/// (internal) The balls of one residue: those whose centres lie alike in their bricks.
+/// \internal
+/// The balls of one residue: those whose centres lie alike in their bricks.
 ///
 /// Such balls meet the bricks around them alike. Bricks wholly inside are summed a row at a time
 /// (BrickVolume::before). Of a cut one, a mask tells what is in the ball: where the brick is empty

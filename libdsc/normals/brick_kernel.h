@@ -1,5 +1,6 @@
 /// \file
-/// (internal) The inner loops of BrickBall on AVX2.
+/// \internal
+/// The inner loops of BrickBall on AVX2.
 #pragma once
 
 #include "libdsc/normals/brick_volume.h"

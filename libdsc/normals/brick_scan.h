@@ -1,5 +1,6 @@
 /// \file
-/// (internal) Moments of balls centred on many surfels, by bricks: for large balls far less work
+/// \internal
+/// Moments of balls centred on many surfels, by bricks: for large balls far less work
 /// than their rows.
 #pragma once
 

@@ -1,5 +1,6 @@
 /// \file
-/// (internal) A part of a volume in bricks of 8³ voxels, for balls of many voxels.
+/// \internal
+/// A part of a volume in bricks of 8³ voxels, for balls of many voxels.
 ///
 /// A brick is empty, full or mixed; only mixed ones keep their bits. For every brick the sums over
 /// those before it in its row along x are kept, so that any run of bricks costs two look-ups.

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Moments of a ball that reaches beyond the volume, where the object goes on.
 ///
 /// Nothing is known there, and emptiness would be felt as an edge of the object: normals near the

@@ -40,21 +40,23 @@
 
 namespace dsc {
 
+/// Which of the two forms above.
 enum class CurvatureForm {
   centred,  ///< the offset of the centre from the surface cancels
   plain,    ///< the volume's and the eigenvalues' own formulas; less noise, but a bias of 4 d / r^2
 };
 
+/// The radius must be given.
 struct CurvatureOptions {
-  double radius = 0;  ///< world units; see radius.h
-  CurvatureForm form = CurvatureForm::centred;
-  Beyond beyond = Beyond::empty;
+  double radius = 0;                            ///< world units; see radius.h
+  CurvatureForm form = CurvatureForm::centred;  ///< see above
+  Beyond beyond = Beyond::empty;                ///< what is outside the volume
 };
 
 /// One value a surfel, 1 / length (gaussian: its square), positive where the shape is convex.
 /// No entry is ever NaN.
 struct CurvatureField {
-  Eigen::VectorXd mean;
+  Eigen::VectorXd mean;          ///< H = (kappa_1 + kappa_2) / 2
   Eigen::VectorXd gaussian;      ///< kappa_1 kappa_2
   Eigen::VectorXd kappa_1;       ///< the smaller principal curvature
   Eigen::VectorXd kappa_2;       ///< the larger one
@@ -63,7 +65,7 @@ struct CurvatureField {
   Eigen::Matrix3Xd normals;      ///< n, as integral_invariant_normals() gives it
   Index fallbacks = 0;  ///< surfels where the ball defines no normal, and n is the surfel's own
   Index cut_faces = 0;  ///< surfels whose ball was continued beyond the volume
-  double radius = 0;
+  double radius = 0;    ///< of the balls, world units
 };
 
 /// \throws UsageError on a radius that is not positive and finite, LimitError on one too large.

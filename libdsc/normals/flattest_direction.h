@@ -1,6 +1,6 @@
 /// \file
-/// From a covariance to the normal of a surfel, and the count of those that have none. For the
-/// layer's own use.
+/// \internal
+/// From a covariance to the normal of a surfel, and the count of those that have none.
 #pragma once
 
 #include "libdsc/base/context.h"

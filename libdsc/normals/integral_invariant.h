@@ -20,6 +20,7 @@
 
 namespace dsc {
 
+/// Where the balls of a surfel are centred.
 enum class BallCentre {
   surfel,      ///< one ball, centred on the surfel
   voxel_pair,  ///< DGtal's: the average of the covariances of two, centred on the inner and outer
@@ -32,10 +33,11 @@ enum class Beyond {
   continued,  ///< the object goes on, where its surface was left open (continued_ball.h)
 };
 
+/// The radius must be given.
 struct IntegralInvariantOptions {
-  double radius = 0;  ///< world units; see radius.h
-  BallCentre centre = BallCentre::surfel;
-  Beyond beyond = Beyond::empty;
+  double radius = 0;                       ///< world units; see radius.h
+  BallCentre centre = BallCentre::surfel;  ///< see BallCentre
+  Beyond beyond = Beyond::empty;           ///< what is outside the volume
 };
 
 /// One normal a surfel.

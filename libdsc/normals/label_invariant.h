@@ -21,9 +21,9 @@ namespace dsc {
 
 /// The moments in one ball of the two labels that its surfel separates.
 struct InterfaceMoments {
-  BallMoments inside;
-  BallMoments outside;
-  bool third = false;  ///< the ball meets another label
+  BallMoments inside;   ///< of the label inside
+  BallMoments outside;  ///< of the label outside
+  bool third = false;   ///< the ball meets another label
 };
 
 /// `centre` in doubled coordinates, at a surfel; `rows` those of its ball.
@@ -34,6 +34,7 @@ InterfaceMoments interface_moments(const LabelVolume& volume, const LabelPair& l
 InterfaceMoments continued_interface_moments(const LabelVolume& volume, const LabelPair& labels,
                                              const BallRows& rows, const Index3& centre);
 
+/// Normals of the interfaces of a label volume.
 struct InterfaceNormals : NormalField {
   Index third_label_faces = 0;  ///< faces whose ball meets a label beyond their own two
 };

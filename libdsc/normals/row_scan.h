@@ -1,5 +1,6 @@
 /// \file
-/// Sums over the voxels of a row, run by run. For the layer's own use.
+/// \internal
+/// Sums over the voxels of a row, run by run.
 #pragma once
 
 #include "libdsc/normals/row_sums.h"

@@ -1,5 +1,6 @@
 /// \file
-/// Sums over a row of a ball, and how they enter the ball's moments. For the layer's own use.
+/// \internal
+/// Sums over a row of a ball, and how they enter the ball's moments.
 #pragma once
 
 #include "libdsc/normals/ball_moments.h"

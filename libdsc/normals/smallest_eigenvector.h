@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The eigenvector of the smallest eigenvalue of a covariance matrix.
 #pragma once
 

@@ -32,8 +32,10 @@ NormalReport integral_invariant_normals(DigitalSurface& surface, const LabelVolu
                                         const IntegralInvariantOptions& options,
                                         const Context& context = {});
 
+/// Of the surfels themselves, averaged (trivial.h). \throws as on meshes.
 NormalReport trivial_normals(DigitalSurface& surface, const Context& context = {});
 
+/// Of the shape that was digitized (analytic.h). \throws as on surfels.
 NormalReport analytic_normals(DigitalSurface& surface, const ImplicitShape& shape,
                               const Context& context = {});
 
