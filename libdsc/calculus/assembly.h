@@ -13,6 +13,7 @@
 
 namespace dsc {
 
+/// L and M0 of one surface under one set of options.
 struct LaplaceSystem {
   SparseMatrix L;           ///< V × V, both triangles stored, columns sorted
   Eigen::VectorXd mass;     ///< diagonal of M0; sums to the projected area

@@ -17,6 +17,7 @@
 
 namespace dsc {
 
+/// The normal that a face is projected along, and its cosine.
 struct Embedding {
   Vec3 u;                ///< the unit normal that the face is projected along
   double cosine = 1.;    ///< u·e > 0, the factor on the area

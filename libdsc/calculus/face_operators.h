@@ -19,8 +19,10 @@
 
 namespace dsc {
 
+/// Dense matrices of one face, each computed when it is asked for.
 class FaceOperators {
  public:
+  /// n × 3: a corner, or an edge, a row.
   using Corners = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
   /// The operators on the corners X (n × 3) as they are; `lambda` >= 0 weighs M1's second part.

@@ -20,6 +20,7 @@
 
 namespace dsc {
 
+/// Built once for a surface and a time, then applied to any number of functions.
 class HeatKernelLaplacian {
  public:
   /// On the faces of `mesh`; `time` is t > 0, in length squared. For shapes of unit size t = 0.1
@@ -33,7 +34,9 @@ class HeatKernelLaplacian {
   /// F, InputError where a value is not finite.
   Eigen::VectorXd apply(const Eigen::VectorXd& f, const Context& context = {}) const;
 
+  /// F.
   Index faces() const { return static_cast<Index>(face_.size()); }
+  /// t, as given.
   double time() const { return time_; }
   /// μ, a value per face. Σ_s μ(s) (L f)(s) = 0.
   Eigen::VectorXd masses() const;

@@ -21,6 +21,7 @@ namespace dsc {
 
 struct LaplaceSystem;
 
+/// The sparsity of the Laplacian of one set of corners, and the way to fill it.
 class LaplacianPattern {
  public:
   /// Reads the corners of `mesh`, which is not kept.
@@ -28,8 +29,11 @@ class LaplacianPattern {
   /// 31 bits.
   explicit LaplacianPattern(const FlatMesh& mesh, const Context& context = {});
 
+  /// V.
   Index vertices() const { return static_cast<Index>(outer_.size()) - 1; }
+  /// F.
   Index faces() const { return faces_; }
+  /// Entries stored, both triangles and the diagonal.
   Index nonzeros() const { return static_cast<Index>(inner_.size()); }
 
   /// The Laplacian and mass of `mesh`, whose corners must be those of the pattern (its sizes are

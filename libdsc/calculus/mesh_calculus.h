@@ -32,28 +32,42 @@ struct GatheredMesh {
 /// those of the functions of the same name in global_operators.h, assembly.h and field_operators.h.
 class MeshCalculus {
  public:
+  /// \throws UsageError on options out of range; of the mesh the functions below tell.
   explicit MeshCalculus(GatheredMesh mesh, const CalculusOptions& options = {},
                         const Context& context = {})
       : mesh_(std::move(mesh)), options_(options), context_(context) {
     options_.check();
   }
 
+  /// What the operators read; a view of this object.
   FlatMesh mesh() const { return mesh_.view(); }
+  /// As given.
   const CalculusOptions& options() const { return options_; }
 
+  /// L with the diagonal of M0, in one pass.
   LaplaceSystem laplace_system() const { return assemble_laplacian(mesh(), options_, context_); }
+  /// L, V × V.
   SparseMatrix laplacian() const { return laplacian_matrix(mesh(), options_, context_); }
+  /// M0, V × V.
   SparseMatrix mass0() const { return mass0_matrix(mesh(), options_, context_); }
+  /// M1, C × C.
   SparseMatrix mass1() const { return mass1_matrix(mesh(), options_, context_); }
+  /// D, C × V.
   SparseMatrix difference() const { return difference_matrix(mesh(), context_); }
+  /// G, 3F × V.
   SparseMatrix gradient() const { return gradient_matrix(mesh(), options_, context_); }
+  /// V, C × 3F.
   SparseMatrix flat() const { return flat_matrix(mesh(), options_, context_); }
+  /// U, 3F × C.
   SparseMatrix sharp() const { return sharp_matrix(mesh(), options_, context_); }
+  /// Div, V × C.
   SparseMatrix divergence() const { return divergence_matrix(mesh(), options_, context_); }
 
+  /// G φ, 3 × F, of `phi` (V), without the matrix: face_gradients().
   Eigen::Matrix3Xd gradients(const Eigen::VectorXd& phi) const {
     return face_gradients(mesh(), phi, options_, context_);
   }
+  /// Div V d, V, of `vectors` (3 × F), without the matrices: integrated_divergence().
   Eigen::VectorXd divergences(const Eigen::Matrix3Xd& vectors) const {
     return integrated_divergence(mesh(), vectors, options_, context_);
   }

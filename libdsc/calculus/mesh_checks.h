@@ -20,8 +20,11 @@ std::string face_name(const FlatMesh& mesh, Index face);
 
 /// \throws InputError about the face's estimated normal.
 [[noreturn]] void refuse_normal(const FlatMesh& mesh, Index face);
+/// \throws InputError: `v`, a corner of the face, is no vertex.
 [[noreturn]] void refuse_vertex(const FlatMesh& mesh, Index face, VertexId v);
+/// \throws InputError: the face has no area.
 [[noreturn]] void refuse_area(const FlatMesh& mesh, Index face);
+/// \throws InputError: the direction of its surfel is none of 0 to 5.
 [[noreturn]] void refuse_direction(const FlatMesh& mesh, Index face);
 
 /// Whether `area` is one, for a face whose edges have `scale` as their sum of squares: finite, and

@@ -15,6 +15,7 @@ enum class Stabilization {
   virtual_refinement,  ///< λ_f = s/8, triangles around a virtual centre; rectangles only
 };
 
+/// The defaults suit digital surfaces of smooth objects.
 struct CalculusOptions {
   /// λ of Stabilization::de_goes, > 0 and at most 1e6: beyond, what it weighs drowns the rest in
   /// rounding. On flat square surfels the maximum principle holds for
@@ -24,7 +25,7 @@ struct CalculusOptions {
   /// normal is tilted back (embedding.h) and the face counted. Operators grow like its inverse.
   /// The default leaves all but about one surfel in 10⁴ of a smooth shape alone.
   double min_cosine = 0.01;
-  Stabilization stabilization = Stabilization::de_goes;
+  Stabilization stabilization = Stabilization::de_goes;  ///< which λ_f
 
   /// \throws UsageError naming the option that is out of its range.
   void check() const;

@@ -22,6 +22,7 @@ namespace dsc {
 /// One face at a time of a mesh that check_mesh() has passed; used by one thread.
 class PolygonKernel {
  public:
+  /// Both must outlive it. No face is current yet.
   PolygonKernel(const FlatMesh& mesh, const CalculusOptions& options);
 
   /// Makes `face` the current one. \throws InputError naming it where a corner, the area or the
@@ -31,9 +32,11 @@ class PolygonKernel {
   Index corners() const { return static_cast<Index>(edges_.size()); }  ///< n
   double area() const { return area_; }                                ///< a, after projection
   const Vec3& normal() const { return u_; }                            ///< u
+  /// Whether the normal was tilted back (embedding.h).
   bool clamped() const { return clamped_; }
   double lambda() const { return lambda_; }  ///< λ_f
 
+  /// e(i) = x(i+1) − x(i), not projected.
   const Vec3& edge(Index i) const { return edges_[static_cast<std::size_t>(i)]; }
   /// x(j+1) − x(j−1), so that a Gᵀd at j is ½ (chord(j) × u)·d.
   Vec3 chord(Index j) const { return edge(j) + edge(j == 0 ? corners() - 1 : j - 1); }

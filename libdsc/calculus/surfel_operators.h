@@ -25,11 +25,24 @@ namespace dsc {
 
 /// The rectangle that all surfels of one direction share.
 struct SurfelShape {
-  int x = 0, y = 1, z = 2;  ///< world axes of the frame
-  double sign = 1.;         ///< the frame's z axis is sign × world axis z
-  double hx = 1., hy = 1.;
-  double yx = hy / hx, xy = hx / hy;  ///< divided once, not for each surfel
+  /// World axes of the frame.
+  /// @{
+  int x = 0, y = 1, z = 2;
+  /// @}
 
+  double sign = 1.;  ///< the frame's z axis is sign × world axis z
+
+  /// Edges along x and y, world units.
+  /// @{
+  double hx = 1., hy = 1.;
+  /// @}
+
+  /// hy/hx and hx/hy: divided once, not for each surfel.
+  /// @{
+  double yx = hy / hx, xy = hx / hy;
+  /// @}
+
+  /// Of the surfel itself, hx hy.
   double area() const { return hx * hy; }
 };
 
@@ -53,6 +66,7 @@ struct SurfelLaplacian {
   double d = 0.;     ///< ¼ (A − B)
   double area = 0.;  ///< a, of the projected face
 
+  /// −L(i, i) without its part of λ_f.
   double diagonal(int i) const { return (i & 1) == 0 ? s + c : s - c; }
   /// L(i, j); every corner has its own diagonal, an x-edge (i xor 1), its opposite (i xor 2) and a
   /// y-edge (i xor 3).
@@ -72,8 +86,9 @@ struct SurfelLaplacian {
 
 /// λ_f as constant + slope · s, for SurfelLaplacian::s (which is a quarter of the s in options.h).
 struct SurfelLambda {
-  double constant = 0.;
-  double slope = 0.;
+  double constant = 0.;  ///< the part without s
+  double slope = 0.;     ///< the factor of s
+  /// Of the stabilization that the options name.
   explicit SurfelLambda(const CalculusOptions& options) {
     switch (options.stabilization) {
       case Stabilization::de_goes:
@@ -89,6 +104,7 @@ struct SurfelLambda {
         break;
     }
   }
+  /// λ_f of a surfel.
   double operator()(double s) const { return constant + slope * s; }
 };
 
@@ -103,12 +119,14 @@ class SurfelOperators {
     if (uz_ < min_cosine) clamp(min_cosine);
   }
 
+  /// Whether u was tilted back (embedding.h).
   bool clamped() const { return clamped_; }
   /// Area of the projected face.
   double area() const { return shape_.area() * uz_; }
   /// The normal of the projected face, in world axes.
   Vec3 normal() const { return world(ux_, uy_, uz_); }
 
+  /// L of the surfel, still without λ_f.
   SurfelLaplacian laplacian() const {
     const double quarter = 0.25 / uz_;
     const double a = shape_.yx * (1. - uy_ * uy_) * quarter;

@@ -18,12 +18,13 @@ Eigen::MatrixXd average_to_vertices(const FlatMesh& mesh,
                                     const CalculusOptions& options = {},
                                     const Context& context = {});
 
-/// The averages of the mesh's estimated normals (of its own, where it has none), made unit vectors
-/// again; 3 × V.
+/// Normals at the vertices.
 struct VertexNormals {
-  Eigen::Matrix3Xd u;
+  Eigen::Matrix3Xd u;   ///< 3 × V, unit columns, but where undefined
   Index undefined = 0;  ///< vertices of no face, or where the normals cancel: u is zero
 };
+/// The averages of the mesh's estimated normals (of its own, where it has none), made unit vectors
+/// again. \throws as assemble_laplacian().
 VertexNormals vertex_normals(const FlatMesh& mesh, const CalculusOptions& options = {},
                              const Context& context = {});
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Sums over the faces around each vertex, parallel and in one fixed order.
 ///
 /// The vertices are cut into blocks, one task each; a task walks the faces in ascending order and
