@@ -16,6 +16,7 @@ struct Components {
   std::vector<VertexId> of_vertex;  ///< V: the component of each vertex
   std::vector<VertexId> lowest;     ///< one a component: its lowest vertex id
 
+  /// The number of components.
   Index count() const { return static_cast<Index>(lowest.size()); }
 };
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Conjugate gradients with the multigrid preconditioner, every loop parallel with the same bits
 /// for any thread count.
 ///

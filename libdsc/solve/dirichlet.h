@@ -31,6 +31,7 @@ class DirichletSolver {
   /// is that of the reduced system. \throws as SpdSolver::solve does.
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const;
 
+  /// n less the fixed ones.
   Index free_unknowns() const { return static_cast<Index>(free_.size()); }
 
  private:
@@ -45,6 +46,8 @@ class DirichletSolver {
 /// components may be the classes of checkerboard.h, whose couplings cross: solved directly then.
 class NeumannSolver {
  public:
+  /// `A` is n x n, symmetric positive semi-definite; `components` have n vertices. \throws
+  /// UsageError where they have another number, and as DirichletSolver or MultigridSolver does.
   NeumannSolver(SparseMatrix A, Components components, const SolverOptions& options = {},
                 const Context& context = {}, const SpdSolverFactory& factory = {});
 

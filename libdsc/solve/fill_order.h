@@ -1,5 +1,6 @@
 /// \file
-/// (internal) Orders of the unknowns that keep a sparse Cholesky factor sparse.
+/// \internal
+/// Orders of the unknowns that keep a sparse Cholesky factor sparse.
 #pragma once
 
 #include "libdsc/base/types.h"

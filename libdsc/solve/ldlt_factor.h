@@ -16,6 +16,7 @@ enum class FillOrder {
   minimum_degree,     ///< AMD: fast, good for narrow bands; calls run side by side
 };
 
+/// The factorization of one matrix, which is not kept; solves are const and may run side by side.
 class LdltFactor {
  public:
   /// Only A's lower triangle is read; n may be 0.
@@ -27,6 +28,7 @@ class LdltFactor {
   LdltFactor(LdltFactor&&) noexcept;
   LdltFactor& operator=(LdltFactor&&) noexcept;
 
+  /// n.
   Index size() const;
   /// Nonzeros of L below its diagonal.
   Index fill() const;

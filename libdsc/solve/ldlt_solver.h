@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The default direct solver: Eigen's sparse L D Lᵀ with METIS' nested dissection order.
 #pragma once
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The connected components of a symmetric matrix's graph, and which of them are singular.
 ///
 /// An entry counts as an edge where |a_ij| > 1e-14 sqrt(a_ii a_jj): explicit zeros and what

@@ -14,16 +14,18 @@ namespace dsc {
 /// Writes a product of the first vector into the second, which has its size already.
 using LinearMap = std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>;
 
+/// The residual must be given.
 struct MatrixFreeOptions {
   /// The norm ||b - A x|| to reach; positive.
   double residual = 0;
-  Index max_iterations = 10000;
+  Index max_iterations = 10000;  ///< before giving up
 };
 
+/// What solve_matrix_free() returns.
 struct MatrixFreeSolution {
-  Eigen::VectorXd x;
-  Index iterations = 0;
-  double residual = 0;  ///< ||b - A x||, recomputed from x
+  Eigen::VectorXd x;     ///< of the size of b
+  Index iterations = 0;  ///< steps of conjugate gradients
+  double residual = 0;   ///< ||b - A x||, recomputed from x
 };
 
 /// From the first guess `x`. `apply` is A; `precondition` a symmetric positive definite

@@ -57,9 +57,10 @@ struct MultigridReport {
 /// side.
 class MultigridSolver {
  public:
+  /// What a solve returns.
   struct Solution {
-    Eigen::VectorXd x;
-    int iterations = 0;
+    Eigen::VectorXd x;   ///< n values
+    int iterations = 0;  ///< of conjugate gradients
     /// |b - Ax| / |b|, recomputed, with b as projected onto the range of A; 0 for b = 0.
     double relative_residual = 0.0;
     /// |removed part of b| / |b|: what the projection onto the range of a singular A took away.
@@ -91,6 +92,7 @@ class MultigridSolver {
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd* start, double relative_tolerance,
                  const Context& context = {}) const;
 
+  /// Of the set-up.
   const MultigridReport& report() const;
 
  private:

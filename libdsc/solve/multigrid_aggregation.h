@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The coarse space of one multigrid level: aggregates of strongly coupled unknowns and the
 /// smoothed prolongation from them.
 ///

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The levels of the multigrid preconditioner and its V-cycle.
 ///
 /// Every level keeps its matrix, scaled by one number, in single precision: a V-cycle is bound by

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Compressed sparse rows, read and built in parallel: the matrices of the multigrid hierarchy.
 ///
 /// A symmetric column-major Eigen matrix is its own row-major form, so its arrays can be viewed.

@@ -19,11 +19,12 @@ namespace dsc {
 
 /// What a solve returns.
 struct Solution {
-  Eigen::VectorXd x;
+  Eigen::VectorXd x;             ///< n values
   double relative_residual = 0;  ///< ||b - A x|| / ||b||, computed from x; 0 where b = 0
   Index iterations = 0;          ///< direct solvers: the number of corrections (0 or 1)
 };
 
+/// Which of the library's solvers.
 enum class SolverMethod {
   automatic,  ///< ldlt up to kDirectLimit unknowns, then multigrid, and ldlt where that stalls
   ldlt,       ///< sparse L D Lᵀ with a nested dissection order: exact, reusable
@@ -33,19 +34,23 @@ enum class SolverMethod {
 /// From here on a direct factorization of a surface's Laplacian costs more than iterating.
 inline constexpr Index kDirectLimit = 150000;
 
+/// How systems are solved, and how well.
 struct SolverOptions {
-  SolverMethod method = SolverMethod::ldlt;
+  SolverMethod method = SolverMethod::ldlt;  ///< see SolverMethod
   /// The relative residual that every solve must reach; in (0, 1).
   double tolerance = 1e-9;
 };
 
+/// A system ready to be solved. A solver of your own derives from it and writes correct().
 class SpdSolver {
  public:
   virtual ~SpdSolver() = default;
   SpdSolver(const SpdSolver&) = delete;
   SpdSolver& operator=(const SpdSolver&) = delete;
 
+  /// n.
   Index size() const { return matrix_->rows(); }
+  /// A as given, compressed.
   const SparseMatrix& matrix() const { return *matrix_; }
 
   /// x with A x = b. `b` has size() entries.
@@ -68,9 +73,10 @@ class SpdSolver {
 
   /// A correction c with A c = r, to this relative residual at least. Direct solvers ignore it.
   struct Correction {
-    Eigen::VectorXd c;
-    Index iterations = 0;
+    Eigen::VectorXd c;     ///< n values
+    Index iterations = 0;  ///< 0 for direct methods
   };
+  /// Called from several threads at once. `r` is finite. \throws SolverError where it cannot.
   virtual Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const = 0;
   /// For a method that needs the matrix as long as it lives.
   const std::shared_ptr<const SparseMatrix>& shared_matrix() const { return matrix_; }

@@ -14,12 +14,14 @@
 
 namespace dsc {
 
+/// How many eigenvalues, and how exact.
 struct SpectrumOptions {
   Index count = 10;  ///< eigenvalues wanted, in [1, n]
   /// The largest ||A x - μ M x|| accepted, in the norm of M⁻¹ and relative to μ - σ; in (0, 1).
   double tolerance = 1e-7;
 };
 
+/// The lowest eigenvalues with their eigenvectors, and what it took to find them.
 struct Spectrum {
   Eigen::VectorXd values;      ///< count, ascending; those of the kernel are 0 up to rounding
   Eigen::MatrixXd vectors;     ///< n x count, XᵀMX = I; the entry largest in size is positive

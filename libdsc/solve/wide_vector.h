@@ -17,13 +17,14 @@ namespace dsc {
 /// One such number. Zero is mantissa 0, whatever the exponent. Normalised: |mantissa| in
 /// [2^-128, 2^128).
 struct Wide {
-  static constexpr double kBase = 0x1p256;
-  static constexpr double kLow = 0x1p-128;
-  static constexpr double kHigh = 0x1p128;
+  static constexpr double kBase = 0x1p256;  ///< what an exponent of 1 stands for
+  static constexpr double kLow = 0x1p-128;  ///< the least normalised |mantissa|
+  static constexpr double kHigh = 0x1p128;  ///< all are below
 
-  double mantissa = 0;
-  std::int32_t exponent = 0;
+  double mantissa = 0;        ///< signed
+  std::int32_t exponent = 0;  ///< of kBase
 
+  /// The same number, normalised; the mantissa must be finite.
   void normalise() {
     if (mantissa == 0) return;
     while (std::abs(mantissa) < kLow) {
@@ -66,22 +67,30 @@ struct Wide {
 class WideVector {
  public:
   WideVector() = default;
+  /// n zeros.
   explicit WideVector(Index n)
       : mantissa_(Eigen::VectorXd::Zero(n)), exponent_(static_cast<std::size_t>(n), 0) {}
 
+  /// n.
   Index size() const { return mantissa_.size(); }
+  /// Entry i.
   Wide operator[](Index i) const { return {mantissa_[i], exponent_[static_cast<std::size_t>(i)]}; }
+  /// Entry i becomes w.
   void set(Index i, const Wide& w) {
     mantissa_[i] = w.mantissa;
     exponent_[static_cast<std::size_t>(i)] = w.exponent;
   }
+  /// Adds m * 2^(256 e) to entry i; see Wide::add().
   void add(Index i, double m, std::int32_t e) {
     Wide w = (*this)[i];
     w.add(m, e);
     set(i, w);
   }
+  /// Of entry i.
+  /// @{
   double mantissa(Index i) const { return mantissa_[i]; }
   std::int32_t exponent(Index i) const { return exponent_[static_cast<std::size_t>(i)]; }
+  /// @}
 
   /// Entry i divided by 2^(256 e): for entries of a neighbourhood relative to its largest.
   double relative_to(Index i, std::int32_t e) const {
