@@ -19,9 +19,10 @@ struct LaplaceSystem;
 /// a 1 on the diagonal. \throws UsageError unless t > 0 and finite.
 SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& context = {});
 
+/// The operators, and how the system is solved.
 struct DiffusionOptions {
-  CalculusOptions calculus;
-  SolverOptions solver;
+  CalculusOptions calculus;  ///< of L and M0
+  SolverOptions solver;      ///< method and tolerance
   SpdSolverFactory factory;  ///< empty: make_spd_solver
 };
 
@@ -38,8 +39,10 @@ class HeatDiffusion {
   /// \throws UsageError on another length, SolverError where u0 is not finite.
   Solution step(const Eigen::VectorXd& u0) const;
 
+  /// t.
   double time() const { return time_; }
   const Eigen::VectorXd& mass() const { return mass_; }  ///< the diagonal of M0
+  /// Faces whose normal was tilted back (embedding.h).
   Index clamped_faces() const { return clamped_faces_; }
 
  private:

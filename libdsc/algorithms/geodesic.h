@@ -26,10 +26,11 @@
 
 namespace dsc {
 
+/// How the heat is diffused; see above.
 enum class HeatMethod {
   automatic,  ///< direct where many sources are to be served on a small surface, else bands
-  direct,
-  bands,
+  direct,     ///< factorizes M0 - t L once for all sources
+  bands,      ///< small systems along the front, for each set of sources anew
 };
 
 /// What heat does at the boundary of the surface; the same thing where there is none.
@@ -38,41 +39,44 @@ enum class HeatBoundary {
   mixed,    ///< the mean of reflected and absorbed, which cancels most of that bend; the default
 };
 
+/// The defaults suit digital surfaces and meshes alike.
 struct GeodesicOptions {
-  CalculusOptions calculus;
+  CalculusOptions calculus;  ///< of L, M0 and G
   /// Diffusion time t in length squared; 0: the square of the largest spacing of a digital surface,
   /// of the mean edge length of another.
   double time = 0;
-  HeatBoundary boundary = HeatBoundary::mixed;
-  HeatMethod method = HeatMethod::automatic;
+  HeatBoundary boundary = HeatBoundary::mixed;  ///< see HeatBoundary
+  HeatMethod method = HeatMethod::automatic;    ///< see HeatMethod
   /// The solver of Poisson's equation; its tolerance is that of the distance's gradient.
   SolverOptions poisson{SolverMethod::automatic, 1e-5};
   /// Makes the solvers; empty: make_spd_solver.
   SpdSolverFactory factory;
 };
 
+/// How the distances came about.
 struct GeodesicReport {
   double time = 0;                         ///< t used
   bool time_raised = false;                ///< t was raised, since heat did not reach every vertex
   HeatMethod method = HeatMethod::direct;  ///< direct or bands
-  Index bands = 0;
-  Index components = 0;
-  Index components_without_source = 0;  ///< where the distance is +infinity
-  Index clamped_faces = 0;              ///< of the calculus
-  Index flat_faces = 0;         ///< without a direction: heat is nearly the same at all corners
-  Index negative_faces = 0;     ///< with heat below zero at a corner, of which the size counts
-  Index raised_values = 0;      ///< vertices set to 0 because they came out below
-  double lowest_value = 0;      ///< the lowest of these, in length; else 0
-  double heat_residual = 0;     ///< componentwise_residual of heat_front.h
-  double poisson_residual = 0;  ///< ||b - A x|| / ||b||
-  Index poisson_iterations = 0;
+  Index bands = 0;                         ///< solved, over all diffusions; 0 for direct
+  Index components = 0;                    ///< of the surface, through shared vertices
+  Index components_without_source = 0;     ///< where the distance is +infinity
+  Index clamped_faces = 0;                 ///< of the calculus
+  Index flat_faces = 0;          ///< without a direction: heat is nearly the same at all corners
+  Index negative_faces = 0;      ///< with heat below zero at a corner, of which the size counts
+  Index raised_values = 0;       ///< vertices set to 0 because they came out below
+  double lowest_value = 0;       ///< the lowest of these, in length; else 0
+  double heat_residual = 0;      ///< componentwise_residual of heat_front.h
+  double poisson_residual = 0;   ///< ||b - A x|| / ||b||
+  Index poisson_iterations = 0;  ///< 0 where solved directly
   double seconds_factorize = 0;  ///< direct factorizations, in the constructor
   double seconds_solve = 0;      ///< everything that depends on the sources
 };
 
+/// Distances and how they came about.
 struct GeodesicResult {
   Eigen::VectorXd distance;  ///< V, in the unit of the positions
-  GeodesicReport report;
+  GeodesicReport report;     ///< of this query
 };
 
 /// Built once for a surface, then asked for distances from any sources; queries are const and may
@@ -92,7 +96,9 @@ class GeodesicSolver {
   /// \throws UsageError where there is none or one is out of range; SolverError.
   GeodesicResult distance(std::span<const VertexId> sources, const Context& context = {}) const;
 
+  /// t, unless a query has to raise it (GeodesicReport::time).
   double time() const;
+  /// Wall time that the constructor took to assemble L and M0.
   double seconds_assemble() const;
 
  private:

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The directions in which heat decreases, d = -G w / |G w| per face.
 ///
 /// Where fronts meet head on, G w vanishes and its direction is noise. So that noise stays small,

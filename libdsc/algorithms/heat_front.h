@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// One implicit step of heat flow from a few sources, (M0 - t L) w = δ, in linear time and at any
 /// distance: band after band along the front.
 ///

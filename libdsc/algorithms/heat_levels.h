@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The vertices that heat reaches from its sources, numbered by breadth-first level.
 #pragma once
 

@@ -16,12 +16,13 @@
 
 namespace dsc {
 
+/// Pointwise by default.
 struct LaplaceBeltramiOptions {
-  CalculusOptions calculus;
+  CalculusOptions calculus;  ///< of L and M0
   /// t, length squared; 0: pointwise.
   double time = 0;
-  SolverOptions solver{SolverMethod::automatic, 1e-9};
-  SpdSolverFactory factory;  ///< empty: make_spd_solver
+  SolverOptions solver{SolverMethod::automatic, 1e-9};  ///< of the diffusion
+  SpdSolverFactory factory;                             ///< empty: make_spd_solver
 };
 
 /// Assembled, and factorized where there is a time, once for a surface.
@@ -40,7 +41,9 @@ class LaplaceBeltrami {
   /// The two in turn: Δf.
   Solution operator()(const Eigen::VectorXd& f) const { return smoothed(pointwise(f)); }
 
+  /// L and M0.
   const LaplaceSystem& system() const { return system_; }
+  /// Wall time of the factorization; 0 where t = 0.
   double seconds_factorize() const { return seconds_factorize_; }
 
  private:

@@ -26,6 +26,7 @@
 
 namespace dsc {
 
+/// H at the vertices.
 struct MeanCurvature {
   Eigen::VectorXd mean;  ///< V, 1 / length
   /// Vertices of no face, or around which the normals cancel; their H is 0 before the diffusion.

@@ -20,9 +20,10 @@
 
 namespace dsc {
 
+/// The operators, and how the system is solved.
 struct PoissonOptions {
-  CalculusOptions calculus;
-  SolverOptions solver;
+  CalculusOptions calculus;  ///< of L and M0
+  SolverOptions solver;      ///< method and tolerance
   SpdSolverFactory factory;  ///< empty: make_spd_solver
 };
 
@@ -41,6 +42,7 @@ class PoissonProblem {
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values = {}) const;
 
   const Eigen::VectorXd& mass() const { return mass_; }  ///< the diagonal of M0
+  /// Faces whose normal was tilted back (embedding.h).
   Index clamped_faces() const { return clamped_faces_; }
 
  private:

@@ -24,6 +24,7 @@
 
 namespace dsc {
 
+/// The weights of the energy, which have no unit, and how exact the minimum is.
 struct RegulariseOptions {
   double alpha = 0.001;  ///< nearness; > 0
   double beta = 1.;      ///< alignment with the normals; >= 0
@@ -36,11 +37,12 @@ struct RegulariseOptions {
   void check() const;
 };
 
+/// The positions, and how far they lie from those given.
 struct RegularisedPositions {
-  Eigen::Matrix3Xd positions;    ///< 3 × V, world units
-  double mean_displacement = 0;  ///< of |p − p̂|
-  double largest_displacement = 0;
-  Index iterations = 0;  ///< of conjugate gradients
+  Eigen::Matrix3Xd positions;       ///< 3 × V, world units
+  double mean_displacement = 0;     ///< of |p − p̂|
+  double largest_displacement = 0;  ///< world units, as the mean
+  Index iterations = 0;             ///< of conjugate gradients
 };
 
 /// Of the mesh's positions under its normals.

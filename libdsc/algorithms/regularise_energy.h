@@ -1,6 +1,6 @@
 /// \file
-/// The quadratic form of regularise.h and its products with vectors, vertex by vertex. For the
-/// layer's own use.
+/// \internal
+/// The quadratic form of regularise.h and its products with vectors, vertex by vertex.
 #pragma once
 
 #include "libdsc/algorithms/regularise.h"

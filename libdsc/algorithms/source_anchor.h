@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The constants that Poisson's equation leaves open, chosen so that every source is at distance 0.
 #pragma once
 
