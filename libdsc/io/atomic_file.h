@@ -14,6 +14,7 @@
 
 namespace dsc {
 
+/// A file under way; commit() makes it the result.
 class AtomicFile {
  public:
   /// Opens the temporary. \throws OutputError naming the file and the system's reason.
@@ -25,12 +26,14 @@ class AtomicFile {
 
   /// Appends, through a buffer. \throws OutputError (a full disk, a closed pipe).
   void write(const void* data, std::size_t bytes);
+  /// The bytes of a text, likewise.
   void write(std::string_view text) { write(text.data(), text.size()); }
 
   /// Flush, fsync, close, rename. Nothing may be written afterwards. \throws OutputError; the
   /// target is then unchanged.
   void commit();
 
+  /// As given.
   const std::string& path() const { return path_; }
 
   /// Unlinks every live temporary of the process and lets no new one come, for the end of the

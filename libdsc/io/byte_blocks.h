@@ -1,5 +1,6 @@
 /// \file
-/// The bytes of a file one record after another, read in blocks. Private to io/.
+/// \internal
+/// The bytes of a file one record after another, read in blocks.
 #pragma once
 
 #include "libdsc/io/input_file.h"

@@ -1,5 +1,6 @@
 /// \file
-/// A program that writes to a pipe, started and read. Private to io/.
+/// \internal
+/// A program that writes to a pipe, started and read.
 #pragma once
 
 #include "libdsc/base/context.h"

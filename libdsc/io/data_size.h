@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// How many bytes a header promises.
 #pragma once
 

@@ -1,7 +1,8 @@
 /// \file
+/// \internal
 /// What goes through the pipe from the program dsc-image-reader to the process that started it: an
 /// ImageHeader, the values (x fastest, then y, then z), kImageEnd. Both run on one machine, so
-/// everything is as it lies in memory. Private to io/.
+/// everything is as it lies in memory.
 #pragma once
 
 #include <cstdint>

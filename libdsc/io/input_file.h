@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// A regular file that is read front to back, with errors that name the file and the byte.
 #pragma once
 

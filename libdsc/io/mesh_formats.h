@@ -1,5 +1,6 @@
 /// \file
-/// The reader of each mesh format, and what they share. Private to io/; call read_mesh().
+/// \internal
+/// The reader of each mesh format, and what they share. Private: call read_mesh().
 #pragma once
 
 #include "libdsc/io/input_file.h"

@@ -1,6 +1,6 @@
 /// \file
+/// \internal
 /// The chunks of an .om file, OpenMesh's own format, found and checked before OpenMesh reads them.
-/// Private to io/.
 ///
 /// A file is a header of 16 bytes (OM, the kind of mesh, a version, the numbers of vertices, faces
 /// and edges), then chunks: two bytes of bit fields, for custom properties their name, type and

@@ -1,5 +1,6 @@
 /// \file
-/// OpenMesh's reading and writing, one at a time and without its chatter. Private to io/.
+/// \internal
+/// OpenMesh's reading and writing, one at a time and without its chatter.
 #pragma once
 
 #include <mutex>

@@ -1,5 +1,6 @@
 /// \file
-/// The header of a PLY file. Private to io/.
+/// \internal
+/// The header of a PLY file.
 #pragma once
 
 #include "libdsc/io/text_lines.h"

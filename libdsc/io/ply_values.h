@@ -1,5 +1,6 @@
 /// \file
-/// The values of a PLY file's elements, text or binary alike. Private to io/.
+/// \internal
+/// The values of a PLY file's elements, text or binary alike.
 #pragma once
 
 #include "libdsc/io/ply_header.h"

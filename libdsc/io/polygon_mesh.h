@@ -12,10 +12,10 @@ namespace dsc {
 
 /// A Field that owns its values.
 struct MeshField {
-  std::string name;
-  std::vector<std::string> parts;
-  FieldOn on = FieldOn::vertex;
-  std::vector<double> values;  ///< one after another, parts.size() each
+  std::string name;                ///< as in Field
+  std::vector<std::string> parts;  ///< their names; one for a scalar
+  FieldOn on = FieldOn::vertex;    ///< what has a value each
+  std::vector<double> values;      ///< one after another, parts.size() each
 };
 
 /// Positions, corners, offsets and estimated face normals (see GatheredMesh; `offsets` is never

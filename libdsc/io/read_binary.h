@@ -16,12 +16,13 @@ namespace dsc {
 /// The values that are inside: by default every value but 0, else those in a closed interval or
 /// those of a list, not both. NaN is never inside.
 struct VoxelSelection {
+  /// Closed: both ends are inside.
   struct Interval {
     double low;   ///< may be -infinity
     double high;  ///< may be +infinity
   };
-  std::optional<Interval> threshold;
-  std::vector<std::int64_t> labels;  ///< values from 2^63 on can be chosen by threshold only
+  std::optional<Interval> threshold;  ///< none by default
+  std::vector<std::int64_t> labels;   ///< values from 2^63 on can be chosen by threshold only
 
   /// \throws UsageError where both are given, or the interval is empty or NaN.
   void check() const;

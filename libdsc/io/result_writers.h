@@ -1,6 +1,7 @@
 /// \file
+/// \internal
 /// The writer of each format, and what they share: bytes made in parallel, written in order.
-/// Internal to io/; call write_result().
+/// Private: call write_result().
 #pragma once
 
 #include "libdsc/io/results.h"

@@ -43,12 +43,13 @@ enum class FieldOn { vertex, face };
 struct Field {
   std::string name;                ///< of the array in .vtp: `distance`, `normal`, `gradient`
   std::vector<std::string> parts;  ///< of the properties and columns: {distance}, {nx, ny, nz}
-  FieldOn on = FieldOn::vertex;
+  FieldOn on = FieldOn::vertex;    ///< what has a value each
   std::span<const double> values;  ///< one after another, parts.size() each
 };
 
 /// A scalar field; `name` is also its one part.
 Field scalar_field(std::string name, FieldOn on, std::span<const double> values);
+/// The same of a vector, which must outlive the field.
 Field scalar_field(std::string name, FieldOn on, const Eigen::VectorXd& values);
 /// A field of 3-vectors, with the names of its parts.
 Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on, Vec3View values);
@@ -56,8 +57,8 @@ Field vector_field(std::string name, std::vector<std::string> parts, FieldOn on,
 /// What a file holds; a view, so that what it looks at must outlive it. Of the mesh, positions,
 /// corners and offsets are written; its normals only where a field names them.
 struct Result {
-  FlatMesh mesh;
-  std::vector<Field> fields;
+  FlatMesh mesh;              ///< what the fields lie on
+  std::vector<Field> fields;  ///< in the order of the file
 };
 
 /// The endings that write_result() knows, for messages and help: ".ply, .vtp, .csv, …".

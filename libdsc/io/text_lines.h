@@ -1,5 +1,6 @@
 /// \file
-/// A text file line by line, and the words and numbers of a line. Private to io/.
+/// \internal
+/// A text file line by line, and the words and numbers of a line.
 #pragma once
 
 #include "libdsc/io/input_file.h"

@@ -1,5 +1,6 @@
 /// \file
-/// What the readers of the formats share. Private to io/.
+/// \internal
+/// What the readers of the formats share.
 #pragma once
 
 #include "libdsc/io/input_file.h"

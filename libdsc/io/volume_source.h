@@ -48,7 +48,7 @@ using VoxelValues = std::variant<std::span<const std::uint8_t>, std::span<const 
 
 /// How a value lies in a file.
 struct ValueType {
-  int bytes = 1;
+  int bytes = 1;           ///< 1, 2, 4 or 8
   bool is_signed = false;  ///< of integers
   bool is_float = false;   ///< of 4 or 8 bytes
   bool swap = false;       ///< the file's byte order is not this machine's
@@ -56,11 +56,12 @@ struct ValueType {
 
 /// Consecutive slices [first, last) of a volume.
 struct Slab {
-  Index first = 0;
-  Index last = 0;
-  VoxelValues values;
+  Index first = 0;     ///< slice
+  Index last = 0;      ///< one past the last slice
+  VoxelValues values;  ///< of all its slices
 };
 
+/// A file whose header has been read and checked, and whose values have not.
 class VolumeSource {
  public:
   VolumeSource() = default;
@@ -70,6 +71,7 @@ class VolumeSource {
 
   /// Of the file, for messages.
   virtual const std::string& path() const = 0;
+  /// Of the header.
   virtual const Grid& grid() const = 0;
   /// From grid().position() to the world; the identity for formats that know of no world.
   virtual RigidMap world() const { return {}; }
@@ -92,10 +94,10 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path);
 
 /// What a raw file does not say about itself.
 struct RawLayout {
-  Index3 size{0, 0, 0};
-  ValueType type;  ///< swap is not used
-  bool big_endian = false;
-  Index offset = 0;  ///< bytes before the first value
+  Index3 size{0, 0, 0};     ///< voxels along x, y, z
+  ValueType type;           ///< swap is not used
+  bool big_endian = false;  ///< byte order of the values
+  Index offset = 0;         ///< bytes before the first value
 };
 
 /// The type of one of the names u8, i8, u16, i16, u32, i32, u64, i64, f32, f64.

@@ -14,6 +14,7 @@
 
 namespace dsc {
 
+/// How a volume is written.
 struct VolumeWriteOptions {
   bool compress = true;  ///< .vol and .longvol: version 3 (zlib) or 2 (raw)
 };
