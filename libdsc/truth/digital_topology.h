@@ -10,6 +10,7 @@
 
 namespace dsc::truth {
 
+/// What two digitizations agree on, and the finer surface.
 struct DigitalTopology {
   Index components = 0;    ///< of the surface
   Index euler = 0;         ///< of the surface, V - E + F

@@ -18,6 +18,7 @@ namespace dsc::truth {
 /// Memory and time grow beyond use above this: 318 000 vertices take 5 GB and a minute a source.
 inline constexpr Index kMaxGeodesicVertices = 100'000;
 
+/// Distances on one mesh, from any points of it.
 class ExactGeodesic {
  public:
   /// A closed or bounded manifold mesh; it is copied. \throws LimitError above
@@ -39,11 +40,12 @@ class ExactGeodesic {
   std::unique_ptr<Mesh> mesh_;
 };
 
+/// A value a query, and how far the meshes are from the limit.
 struct SurfaceDistances {
   Eigen::VectorXd distance;  ///< (4 fine - coarse) / 3; +infinity where unreachable
   Eigen::VectorXd coarse;    ///< on the mesh of the edge length that was asked for
   Eigen::VectorXd fine;      ///< on that mesh, cut in four
-  Index fine_vertices = 0;
+  Index fine_vertices = 0;   ///< of the mesh cut in four
   /// The largest |distance - fine| over finite distances: the error of `fine`, about; that of
   /// `distance` is a fraction of it.
   double correction = 0;

@@ -10,11 +10,12 @@ namespace dsc::truth {
 
 /// A point of a mesh: face and barycentric coordinates, non-negative, of sum 1.
 struct MeshPoint {
-  Index face = -1;
-  Vec3 barycentric = Vec3::Zero();
-  Vec3 point = Vec3::Zero();
+  Index face = -1;                  ///< of the mesh; -1: none
+  Vec3 barycentric = Vec3::Zero();  ///< weights of its corners
+  Vec3 point = Vec3::Zero();        ///< world units
 };
 
+/// The triangles of one mesh, sorted in space.
 class MeshTree {
  public:
   /// Triangles without area are left out: their sides belong to neighbours, too. The mesh is

@@ -15,6 +15,7 @@
 
 namespace dsc::truth {
 
+/// Projects onto the surface of one shape, with a mesh of it as guide.
 class SurfaceProjection {
  public:
   /// `shape` must outlive this; `mesh` is a mesh of its surface, read only here.
@@ -30,6 +31,7 @@ class SurfaceProjection {
   /// All of them, in parallel; failures are counted and hold the best point found.
   ProjectedPoints project(Vec3View points, const Context& context = {}) const;
 
+  /// Of the mesh that was given.
   const MeshTree& tree() const { return tree_; }
 
  private:

@@ -18,16 +18,18 @@
 
 namespace dsc::truth {
 
+/// The mesh, and what was checked of it.
 struct SmoothMesh {
-  TriangleMesh mesh;
-  TriangleMeshCounts counts;
-  EdgeLengths edges;
+  TriangleMesh mesh;          ///< vertices on the surface
+  TriangleMeshCounts counts;  ///< those of a closed manifold
+  EdgeLengths edges;          ///< world units
   /// The smallest cosine between a triangle's normal and the surface's at one of its vertices.
   double worst_cosine = 0;
   int cuts = 0;         ///< from the mesher's triangles to these
   double gridstep = 0;  ///< the digitization that has the same topology
 };
 
+/// How fine the mesh is.
 struct SmoothMeshOptions {
   /// Of the equilateral triangle whose circumcircle bounds every triangle's; most edges are
   /// shorter. Triangles are smaller where the surface bends within that length.

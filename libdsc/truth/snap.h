@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// A point near an implicit surface onto it, along the gradient: Newton on f alone,
 ///     q <- q - f grad f / |grad f|^2,
 /// until rounding ends the descent of |f| / |grad f|. It reaches the surface, not the closest point

@@ -1,5 +1,6 @@
 /// \file
-/// CGAL's surface mesher (restricted Delaunay refinement) on an implicit shape. Internal to truth/;
+/// \internal
+/// CGAL's surface mesher (restricted Delaunay refinement) on an implicit shape. Private:
 /// call smooth_mesh().
 #pragma once
 

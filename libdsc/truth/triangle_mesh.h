@@ -14,16 +14,21 @@
 
 namespace dsc::truth {
 
+/// The vertex ids of the three corners.
 using Triangle = std::array<VertexId, 3>;
 
 /// Corners run counter-clockwise seen from outside.
 struct TriangleMesh {
-  Eigen::Matrix3Xd vertices;  ///< 3 x V, world units
-  std::vector<Triangle> faces;
+  Eigen::Matrix3Xd vertices;    ///< 3 x V, world units
+  std::vector<Triangle> faces;  ///< F
 
+  /// V.
   Index vertex_count() const { return vertices.cols(); }
+  /// F.
   Index face_count() const { return static_cast<Index>(faces.size()); }
+  /// A view of the vertices.
   Vec3View positions() const { return {vertices.data(), vertices.cols()}; }
+  /// Position of corner k, 0 to 2.
   Vec3 corner(Index face, int k) const {
     return vertices.col(faces[static_cast<std::size_t>(face)][static_cast<std::size_t>(k)]);
   }
@@ -63,10 +68,12 @@ void orient(TriangleMesh& mesh, const std::function<Vec3(const Vec3&)>& outward)
 /// \throws LimitError where corners pass 31 bits.
 TriangleMesh subdivide(const TriangleMesh& mesh);
 
+/// World units; 0 where there is no edge.
 struct EdgeLengths {
-  double longest = 0;
-  double mean = 0;
+  double longest = 0;  ///< of all edges
+  double mean = 0;     ///< over all edges, each once
 };
+/// Measures every edge once.
 EdgeLengths edge_lengths(const TriangleMesh& mesh);
 
 }  // namespace dsc::truth

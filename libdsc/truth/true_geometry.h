@@ -11,10 +11,10 @@ namespace dsc::truth {
 /// One entry a point. Signs as everywhere: normals outwards, a sphere of radius r has mean
 /// curvature +1/r.
 struct TrueGeometry {
-  Eigen::Matrix3Xd normals;
-  Eigen::VectorXd mean;
-  Eigen::VectorXd gaussian;
-  Index failures = 0;  ///< points where the gradient vanishes; they hold zeros
+  Eigen::Matrix3Xd normals;  ///< unit, outwards
+  Eigen::VectorXd mean;      ///< 1 / length
+  Eigen::VectorXd gaussian;  ///< 1 / length squared
+  Index failures = 0;        ///< points where the gradient vanishes; they hold zeros
 };
 
 /// At points of the surface, such as projection.h gives. In parallel. \throws InputError where an
