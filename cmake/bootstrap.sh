@@ -14,10 +14,11 @@
 #                                      measures every stage and whole jobs against what the machine can
 #                                      do and rewrites tests/benchmarks/RESULTS.md, in a quarter of an
 #                                      hour; --quick prints what small surfaces take, in two minutes
+#   ./cmake/bootstrap.sh docs          makes the pages for readers of the code, build/docs/html/index.html
 set -euo pipefail
 
 usage() {
-  sed -n '5,16s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,17s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -28,14 +29,18 @@ library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmupar
   libtbb-dev libcli11-dev nlohmann-json3-dev)
 image_packages=(libinsighttoolkit5-dev)
 benchmark_packages=(libbenchmark-dev)
+docs_packages=(libjs-mathjax)
 test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
-  command -v cc >/dev/null || echo gcc
-  command -v c++ >/dev/null || echo g++
   command -v cmake >/dev/null || echo cmake
-  command -v ninja >/dev/null || echo ninja-build
+  if [[ $mode != docs ]]; then
+    command -v cc >/dev/null || echo gcc
+    command -v c++ >/dev/null || echo g++
+    command -v ninja >/dev/null || echo ninja-build
+  fi
+  [[ $mode != test && $mode != docs ]] || command -v doxygen >/dev/null || echo doxygen
   [[ $mode != test ]] || command -v python3 >/dev/null || echo python3
   local package
   for package in "$@"; do
@@ -50,6 +55,8 @@ install_missing() {
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
     [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5'
+    [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'
+    [[ " $* " != *mathjax* ]] || printf '     %s\n' 'MathJax 2, in /usr/share/javascript/mathjax (the pages alone need no more than these two and CMake)'
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
@@ -145,6 +152,14 @@ case $mode in
     configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_BUILD_BENCHMARKS=ON
     bin=build/release/bin
     exec "$bin/dsc_benchmark_report" "$@" "$bin/dsc_benchmarks" "$bin/dsc" tests/benchmarks
+    ;;
+  docs)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${docs_packages[@]}"
+    command -v doxygen >/dev/null || { echo "bootstrap.sh: docs need doxygen" >&2; exit 1; }
+    exec cmake -DDOXYGEN="$(command -v doxygen)" -DMATHJAX=/usr/share/javascript/mathjax -DROOT="$PWD" \
+      -DOUTPUT="$PWD/build/docs" -P docs/doxygen.cmake
     ;;
   *) usage ;;
 esac

@@ -1,5 +1,5 @@
 /// \file
-/// Heat diffusion on a surface: one implicit Euler step, (M0 - t L) u = M0 u0.
+/// Heat diffusion on a surface: one implicit Euler step, \f$(M_0 - tL)\,u = M_0 u_0\f$.
 ///
 /// Heat is conserved, Σ M0 u = Σ M0 u0; constants stay; u tends to the mean of each component as t
 /// grows. A vertex that no face uses keeps its value. With Stabilization::mercat checkerboards stay

@@ -2,11 +2,12 @@
 /// Geodesic distance from one or many vertices by the heat method (Crane, Weischedel, Wardetzky
 /// 2013), on the corrected calculus.
 ///
-///     (M0 - t L) w = δ_sources,   d = -G w / |G w| per face,   L φ = Σ_f Div_f V_f d_f,
-/// and φ, shifted so that the sources are at 0, is the distance. Guaranteed: exactly 0 at every
-/// source, never negative, never NaN; +infinity on components (through shared vertices) that hold
-/// no source; right at any distance, since heat is kept in numbers that do not underflow; the same
-/// bits for any thread count.
+/// \f[ (M_0 - tL)\,w = \delta_S, \qquad d = -\frac{Gw}{|Gw|}, \qquad
+///      L\varphi = \sum_f \mathrm{Div}_f V_f d_f, \f]
+/// S the sources, d a vector a face; φ, shifted so that the sources are at 0, is the distance.
+/// Guaranteed: exactly 0 at every source, never negative, never NaN; +infinity on components
+/// (through shared vertices) that hold no source; right at any distance, since heat is kept in
+/// numbers that do not underflow; the same bits for any thread count.
 ///
 /// Two ways to diffuse the heat. `direct` factorizes M0 - t L once and then serves any sources;
 /// `bands` follows the front of each set of sources (heat_front.h), in linear time and little

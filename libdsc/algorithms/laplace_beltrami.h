@@ -3,7 +3,7 @@
 ///
 /// On digital surfaces M0⁻¹ L f stays bounded but does not converge pointwise as h → 0: L is right
 /// on average only. One implicit step of heat of a short time t over the result,
-///     (M0 − t L)⁻¹ L f,
+/// \f[ (M_0 - tL)^{-1} L f, \f]
 /// averages over a distance of about √t; with t = 0.035 h on a shape of unit size the error is
 /// about linear in h (Weill-Duflos, Coeurjolly, Lachaud 2024). Either way f must be sampled at
 /// points near the smooth surface, not at raw pointels, whose offsets enter divided by h².

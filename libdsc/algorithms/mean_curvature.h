@@ -1,6 +1,7 @@
 /// \file
-/// Mean curvature from the Laplacian of the positions, H = −½ M0⁻¹ [LX LY LZ]·u, u the estimated
-/// normals averaged to vertices. Positive where the surface is convex.
+/// Mean curvature from the Laplacian of the positions,
+/// \f$H = -\tfrac12 M_0^{-1}\,[LX\;LY\;LZ] \cdot u\f$, u the estimated normals averaged to
+/// vertices. Positive where the surface is convex.
 ///
 /// X must lie near the smooth surface: with the pointels of a digital surface H is meaningless, its
 /// error grows like 1/h. Two ways:

@@ -4,7 +4,8 @@
 /// The pointels p of a digital surface lie within about a gridstep of the surface behind them, but
 /// its squares have no slope but the axes'. The positions p̂ that minimise
 ///
-///     α Σ_v |p − p̂|²  +  β Σ_f Σ_{e∈∂f} (ê·u_f)²  +  γ Σ_v |p̂ − b̂|²
+/// \f[ \alpha \sum_v |p - \hat p|^2 + \beta \sum_f \sum_{e \in \partial f} (\hat e \cdot u_f)^2
+///      + \gamma \sum_v |\hat p - \hat b|^2 \f]
 ///
 /// stay near them (α), make each face stand across its estimated normal u_f (β; ê are the edges
 /// between unknown positions), and spread evenly (γ; b̂ is the mean of the unknown neighbours along

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+/// All of libdsc. What is in a namespace `detail` is no part of what it promises.
 namespace dsc {
 
 /// Counts and positions in arrays; 64 bits, so that no voxel or corner count overflows.

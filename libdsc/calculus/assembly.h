@@ -1,10 +1,11 @@
 /// \file
 /// The global Laplacian and mass of a surface, from its corners and estimated normals.
 ///
-/// L = Σ_f L_f and M0 = Σ_f (a_f/n_f) I, summed by vertex id. Surfels use the closed form of
-/// surfel_operators.h, other meshes the general polygon. L is the weak (integrated) operator:
-/// M0⁻¹L approximates the Laplace-Beltrami operator; L is symmetric to the last bit and negative
-/// semi-definite, with the constants of every connected component in its kernel.
+/// \f$L = \sum_f L_f\f$ and \f$M_0 = \sum_f \frac{a_f}{n_f} I\f$, summed by vertex id. Surfels use
+/// the closed form of surfel_operators.h, other meshes the general polygon. L is the weak
+/// (integrated) operator: M0⁻¹L approximates the Laplace-Beltrami operator; L is symmetric to the
+/// last bit and negative semi-definite, with the constants of every connected component in its
+/// kernel.
 #pragma once
 
 #include "libdsc/base/context.h"

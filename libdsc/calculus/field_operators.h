@@ -3,8 +3,9 @@
 ///
 ///     gradient:    scalar per vertex  → vector per face,    (G_f φ)_f
 ///     divergence:  vector per face    → scalar per vertex,  Σ_f Div_f V_f d_f = −Σ_f a_f G_fᵀ d_f
-/// so that Σ_v φ(v) div(v) = −Σ_f a_f (G_f φ)·d_f, Green's formula; both have the same bits for any
-/// thread count.
+/// so that Green's formula holds,
+/// \f[ \sum_v \varphi(v)\,\mathrm{div}(v) = -\sum_f a_f\,(G_f \varphi) \cdot d_f. \f]
+/// Both have the same bits for any thread count.
 #pragma once
 
 #include "libdsc/base/context.h"

@@ -2,7 +2,7 @@
 /// The Laplacian by convolution with the heat kernel, which converges pointwise on digital surfaces
 /// (Caissard, Coeurjolly, Lachaud, Roussillon 2019):
 ///
-///     (L f)(s) = 1/(4π t²) Σ_r exp(−|r − s|²/4t) (f(r) − f(s)) μ(r),
+/// \f[ (L f)(s) = \frac{1}{4\pi t^2} \sum_r e^{-|r - s|^2/4t}\,(f(r) - f(s))\,\mu(r), \f]
 ///
 /// r, s over the centres of the faces, μ(r) the area of the face after projection along its
 /// estimated normal, |·| the distance in space. It converges for t = Θ(h^α) with α < 1/2, at the

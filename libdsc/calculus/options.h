@@ -7,7 +7,8 @@ namespace dsc {
 
 /// The coefficient λ_f of the part of a 1-form that no tangent vector explains. On an axis-aligned
 /// rectangle the usual local Laplacians are all −(a GᵀG + λ_f g gᵀ), g = (1, −1, 1, −1), and differ
-/// in λ_f alone; there s = [(hy/hx)(1 − u_y²) + (hx/hy)(1 − u_x²)] / u_z.
+/// in λ_f alone; there, in the rectangle's own frame,
+/// \f[ s = \Big(\frac{h_y}{h_x}(1 - u_y^2) + \frac{h_x}{h_y}(1 - u_x^2)\Big) \Big/ u_z. \f]
 enum class Stabilization {
   de_goes,             ///< λ_f = CalculusOptions::lambda (de Goes et al.; Alexa and Wardetzky)
   mercat,              ///< λ_f = 0: the checkerboard joins the kernel, so solvers must deflate it

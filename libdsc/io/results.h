@@ -37,7 +37,10 @@
 namespace dsc {
 
 /// What a field has one value for.
-enum class FieldOn { vertex, face };
+enum class FieldOn {
+  vertex,  ///< a value per vertex id
+  face,    ///< a value per face
+};
 
 /// A named scalar or vector per vertex or per face. It does not own its values.
 struct Field {

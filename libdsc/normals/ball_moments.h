@@ -33,7 +33,10 @@ class BallMasks;
 class BallScanner {
  public:
   /// Which centres will be asked for; the tables of the others are not built.
-  enum class Centres { voxels, surfels };
+  enum class Centres {
+    voxels,   ///< all doubled coordinates even
+    surfels,  ///< one of them odd
+  };
 
   /// Keeps a reference to the volume. \throws as Ball does.
   BallScanner(const BinaryVolume& volume, double radius, Centres centres);

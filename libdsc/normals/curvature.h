@@ -8,10 +8,11 @@
 /// the centre has Vol_0 = Vol(B)/2 and, along tangents, the moments of V_0 = (1/2) int_B d d^T. The
 /// excess over it, e_1 >= e_2 the extremes of V - V_0 on the tangent plane, gives
 ///
-///     centred:     H = 12 (Vol - Vol_0)/(pi r^4) - 24 (e_1 + e_2)/(pi r^6),
-///                  kappa_1,2 = H -+ 12 (e_1 - e_2)/(pi r^6);
-///     plain:       H = -4 (Vol - Vol_0)/(pi r^4),
-///                  kappa_1 = 6 (e_2 - 3 e_1)/(pi r^6), kappa_2 with e_1, e_2 exchanged;
+/// centred: \f$H = 12\,(\mathrm{Vol} - \mathrm{Vol}_0)/(\pi r^4) - 24\,(e_1 + e_2)/(\pi r^6)\f$,
+/// \f$\kappa_{1,2} = H \mp 12\,(e_1 - e_2)/(\pi r^6)\f$;
+///
+/// plain: \f$H = -4\,(\mathrm{Vol} - \mathrm{Vol}_0)/(\pi r^4)\f$,
+/// \f$\kappa_1 = 6\,(e_2 - 3 e_1)/(\pi r^6)\f$, \f$\kappa_2\f$ with e_1, e_2 exchanged;
 ///
 /// kappa_1 <= kappa_2, kappa_1 along the direction of e_1. A centre at distance d outside the
 /// surface adds about 4 d / r^2 to the plain H; in the centred form this cancels. So the centred

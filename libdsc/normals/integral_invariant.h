@@ -1,10 +1,12 @@
 /// \file
 /// Integral invariant normals: the flattest direction of the shape within a ball.
 ///
-/// At a surfel, V = hx hy hz sum (p - mean)(p - mean)^T over the voxels p of the set in the ball of
-/// world radius r; u is the eigenvector of its smallest eigenvalue, oriented like the surfel
-/// (Pottmann et al. 2007; convergent on digitised shapes: Lachaud, Coeurjolly, Levallois 2017). The
-/// sums are exact integers (ball_moments.h), so u has the same bits for any thread count.
+/// At a surfel,
+/// \f[ V = h_x h_y h_z \sum_p (p - \bar p)(p - \bar p)^T \f]
+/// over the voxels p of the set in the ball of world radius r, their mean \f$\bar p\f$; u is the
+/// eigenvector of its smallest eigenvalue, oriented like the surfel (Pottmann et al. 2007;
+/// convergent on digitised shapes: Lachaud, Coeurjolly, Levallois 2017). The sums are exact
+/// integers (ball_moments.h), so u has the same bits for any thread count.
 ///
 /// Where a border cuts the object and nothing is assumed beyond, u feels the cut; see Beyond.
 #pragma once

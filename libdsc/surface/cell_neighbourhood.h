@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The cells around a word of 64 voxels: the 27 words that its surfels can touch.
 ///
 /// Positions are given from voxel (64 w + bit - 1, y, z) of the word at hand: a place is the word's

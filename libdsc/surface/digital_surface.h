@@ -80,7 +80,7 @@ class DigitalSurface {
     const auto& p = mesh_->points()[v];
     return {p[0], p[1], p[2]};
   }
-  /// All of them.
+  /// World positions of all vertex ids, in their order.
   Vec3View positions() const { return {mesh_->points()->data(), vertex_count_}; }
 
   /// The face property `dsc:normal` , one a face; empty where no estimator has written it.

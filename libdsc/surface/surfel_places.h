@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Where the cells around a surfel lie, as tables.
 #pragma once
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <vector>
 
+/// What results are compared with: the library dsc::truth, on CGAL.
 namespace dsc::truth {
 
 /// The vertex ids of the three corners.

@@ -1,6 +1,6 @@
 /// \file
 /// The closest point of an implicit surface {f = 0}, by Newton's method on the optimality system
-///     q - p + mu grad f(q) = 0,   f(q) = 0   in (q, mu).
+/// \f[ q - p + \mu\,\nabla f(q) = 0, \quad f(q) = 0 \quad \mbox{in } (q, \mu). \f]
 ///
 /// Steps of first-order projection, q <- q - f grad f / |grad f|^2, give the start; a line search
 /// on the residual and, where Newton ends elsewhere, a descent along the surface keep it in hand. A

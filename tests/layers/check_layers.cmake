@@ -3,6 +3,7 @@
 # Reads the #include lines of every source file under ROOT and fails, naming the file and the header, on
 # each that the architecture forbids.
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/PrivateHeaders.cmake)
 
 # A layer uses itself and what comes before it here.
 set(layers base voxels surface normals calculus solve algorithms truth io cli)
@@ -19,6 +20,10 @@ set(restricted
   "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"
   # What dsc::dsc links privately stays out of the headers that are installed.
   "^(muParser|metis\\.h|fmt/|nlohmann/|CLI/|zlib\\.h|tbb/|oneapi/)"  "(\\.cpp$|^cli/)")
+
+# Headers that are their layer's own: only its files, no public header among them, and the program may
+# include these.
+dsc_private_headers(${ROOT} private)
 
 set(problems "")
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/*.h ${ROOT}/*.hpp ${ROOT}/*.cpp)
@@ -40,10 +45,18 @@ foreach(file IN LISTS files)
     endif()
     set(quote "${CMAKE_MATCH_1}")
     set(header "${CMAKE_MATCH_2}")
-    if(header MATCHES "^libdsc/([a-z]+)/")
-      list(FIND layers "${CMAKE_MATCH_1}" used)
+    if(header MATCHES "^libdsc/(([a-z]+)/.*)$")
+      set(used_header "${CMAKE_MATCH_1}")
+      set(used_layer "${CMAKE_MATCH_2}")
+      list(FIND layers "${used_layer}" used)
       if(used EQUAL -1 OR used GREATER rank)
         list(APPEND problems "${file}: includes ${header}, a layer after its own")
+      elseif(used_header IN_LIST private AND NOT layer STREQUAL "cli")
+        if(NOT layer STREQUAL used_layer)
+          list(APPEND problems "${file}: includes ${header}, which is \\internal to its layer")
+        elseif(file MATCHES "\\.h$" AND NOT file IN_LIST private)
+          list(APPEND problems "${file}: includes ${header}, which is \\internal, and is public itself")
+        endif()
       endif()
     elseif(quote STREQUAL "\"")
       list(APPEND problems "${file}: includes ${header} by another path than libdsc/<layer>/")

@@ -1,6 +1,7 @@
 /// \file
-/// Whether a file holds all the values that it promises. ITK's readers of NIfTI, MetaImage, TIFF and
-/// DICOM fill what a truncated file lacks with zeros, or leave out slices, and say nothing.
+/// \internal
+/// Whether a file holds all the values that it promises. ITK's readers of NIfTI, MetaImage, TIFF
+/// and DICOM fill what a truncated file lacks with zeros, or leave out slices, and say nothing.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// An image as dsc-image-reader sees it: its header first, then its values in pieces.
 #pragma once
 

@@ -1,1 +1,2 @@
 #include <cholmod.h>  // wrong
+#include "libdsc/normals/own.h"  // wrong

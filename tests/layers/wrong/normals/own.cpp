@@ -1,0 +1,1 @@
+#include "libdsc/normals/own.h"

@@ -1,0 +1,4 @@
+/// \file
+/// \internal
+/// A header of the layer's own.
+#pragma once
