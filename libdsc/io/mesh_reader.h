@@ -4,21 +4,20 @@
 /// Coordinates are read in double precision, faces keep all their corners. What a file holds
 /// beside is kept where it says so here, else it is counted in PolygonMesh::remarks.
 ///
-/// | ending | what is read |
-/// | --- | --- |
-/// | .off | text; OFF, and COFF, NOFF, STOFF and their joins; a vertex and a face a line. Vertex
-/// normals become the field normal; colours and texture coordinates are left out |
-/// | .obj | v and f (v, v/t, v//n, v/t/n, counted from 1 or back from the last); texture
-/// coordinates, normals, groups, materials, lines and points are left out; curves and surfaces
-/// are refused |
-/// | .ply | text or binary in either byte order; elements vertex and face; every scalar property
-/// becomes a field; three of one name but for x, y, z at its end become a vector. Other elements
-/// and other lists are left out |
-/// | .stl | text or binary. The format repeats each vertex in each triangle: corners of equal
-/// coordinates (-0 is 0) become one vertex. Facet normals and attributes are left out |
-/// | .om | through OpenMesh, whose format it is (versions 2.0 to 2.2, little-endian), after a check
-/// of its own: OpenMesh trusts what it reads. Properties of scalars and 3-vectors are kept; the
-/// vertex property `dsc:vertex` glues what a halfedge mesh had to split |
+/// - `.off`: text; OFF, and COFF, NOFF, STOFF and their joins; a vertex and a face a line. Vertex
+///   normals become the field normal; colours and texture coordinates are left out.
+/// - `.obj`: v and f (v, v/t, v//n, v/t/n, counted from 1 or back from the last); texture
+///   coordinates, normals, groups, materials, lines and points are left out; curves and surfaces
+///   are refused.
+/// - `.ply`: text or binary in either byte order; elements vertex and face; every scalar property
+///   becomes a field; three of one name but for x, y, z at its end become a vector. Other elements
+///   and other lists are left out.
+/// - `.stl`: text or binary. The format repeats each vertex in each triangle: corners of equal
+///   coordinates (-0 is 0) become one vertex. Facet normals and attributes are left out.
+/// - `.om`: through OpenMesh, whose format it is (versions 2.0 to 2.2, little-endian), after a
+/// check
+///   of its own: OpenMesh trusts what it reads. Properties of scalars and 3-vectors are kept; the
+///   vertex property `dsc:vertex` glues what a halfedge mesh had to split.
 ///
 /// The face field normal (nx, ny, nz in .ply, `dsc:normal` in .om) becomes PolygonMesh::normals
 /// where all its vectors have length 1 within 0.001; those that a file held as floats are

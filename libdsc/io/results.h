@@ -1,17 +1,17 @@
 /// \file
 /// Results in files: a polygon mesh and the fields on its vertices and faces.
 ///
-/// | ending | what is written |
-/// | --- | --- |
-/// | .ply | binary little-endian; doubles; corner lists of int32; a vector is three properties |
-/// | .vtp | ParaView's XML PolyData; doubles as base64; a vector is one array of 3 components |
-/// | .csv | a header line, then x, y, z and the fields, a row per vertex or per face (below) |
-/// | .off, .obj | text; the mesh only |
-/// | .stl | binary; the mesh only, as triangles of floats that repeat their vertices: a quad is cut
-/// along its shorter diagonal, a larger face into a fan from its first corner |
-/// | .om | OpenMesh's own; doubles; a scalar or a vector is a persistent property of its name, the
-/// face field normal `dsc:normal`. Where faces form no oriented manifold the mesh is split, and the
-/// vertex property `dsc:vertex` says how to glue it (split_mesh.h). Read back before it is kept |
+/// - `.ply`: binary little-endian; doubles; corner lists of int32; a vector is three properties.
+/// - `.vtp`: ParaView's XML PolyData; doubles as base64; a vector is one array of 3 components.
+/// - `.csv`: a header line, then x, y, z and the fields, a row per vertex or per face (below).
+/// - `.off`, `.obj`: text; the mesh only.
+/// - `.stl`: binary; the mesh only, as triangles of floats that repeat their vertices: a quad is
+/// cut
+///   along its shorter diagonal, a larger face into a fan from its first corner.
+/// - `.om`: OpenMesh's own; doubles; a scalar or a vector is a persistent property of its name, the
+///   face field normal `dsc:normal`. Where faces form no oriented manifold the mesh is split, and
+///   the vertex property `dsc:vertex` says how to glue it (split_mesh.h). Read back before it is
+///   kept.
 ///
 /// Vertices are vertex ids: the junction vertices of a digital surface stay shared, however its
 /// halfedge mesh had to split them. Every double is written in full but in .stl: text uses the

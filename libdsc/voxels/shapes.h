@@ -1,7 +1,6 @@
 /// \file
 /// The named shapes, each with exact gradient and Hessian. Inside is f < 0.
 ///
-// clang-format off: it would break the rows of the table.
 /// | class       | f(x, y, z), p = (x, y, z) relative to the centre | bounds          |
 /// | ----------- | ------------------------------------------------ | --------------- |
 /// | Sphere      | x^2 + y^2 + z^2 - r^2                            | r               |
@@ -11,8 +10,9 @@
 /// | Goursat     | 0.03 (x^4+y^4+z^4) - 2 (x^2+y^2+z^2) - 8         | 10              |
 /// | Leopold     | x^2 y^2 z^2 + 4 x^2 + 4 y^2 + 3 z^2 - 100        | 5, 5, 5.78      |
 /// | Heart       | (x^2+9/4 y^2+z^2-1)^3 - x^2 z^3 - 9/80 y^2 z^3   | 1.2, 0.8, 1.3   |
-/// | Plane       | n.p - d, norm of n 1                             | size / 2        |
+/// | Plane       | n.p - d, n a unit vector                         | size / 2        |
 ///
+/// The axis of Torus is z; bounds() of Plane cuts it (not closed).
 /// Degenerate: the gradient of Heart vanishes where its surface meets the plane z = 0 (the equation
 /// has a cusp direction there), so closest points near that curve may fail to converge.
 #pragma once
