@@ -4,6 +4,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/calculus/assembly.h"
 #include "libdsc/calculus/mesh_checks.h"
+#include "libdsc/calculus/small_ranks.h"
 #include "libdsc/calculus/vertex_blocks.h"
 
 #include <algorithm>
@@ -16,27 +17,17 @@ constexpr Index kGrain = 4096;
 /// What a slot of a byte can hold.
 constexpr std::size_t kMostSurfelEntries = 255;
 
-/// A small sorted set of vertices, kept in place from column to column.
+/// The entries of a column: the vertices around one, ascending.
 class Column {
  public:
   void clear() { ids_.clear(); }
-  void insert(VertexId v) {
-    std::size_t i = ids_.size();
-    while (i > 0 && ids_[i - 1] > v) --i;
-    if (i > 0 && ids_[i - 1] == v) return;
-    ids_.insert(ids_.begin() + static_cast<std::ptrdiff_t>(i), v);
-  }
-  /// For columns too long to insert into one by one.
-  void append(VertexId v) { ids_.push_back(v); }
-  void sort_unique() {
+  void append(std::span<const VertexId> ids) { ids_.insert(ids_.end(), ids.begin(), ids.end()); }
+  void sort() {
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
   }
   Index position(VertexId v) const {
-    if (ids_.size() > 32) return std::lower_bound(ids_.begin(), ids_.end(), v) - ids_.begin();
-    Index less = 0;
-    for (const VertexId id : ids_) less += id < v ? 1 : 0;
-    return less;
+    return std::lower_bound(ids_.begin(), ids_.end(), v) - ids_.begin();
   }
   const std::vector<VertexId>& ids() const { return ids_; }
 
@@ -60,7 +51,7 @@ LaplacianPattern::LaplacianPattern(const FlatMesh& mesh, const Context& context)
   }
   find_incident(mesh, context);
   find_columns(mesh, context);
-  if (digital_) find_blocks();
+  if (digital_) find_blocks(context);
 }
 
 /// A counting sort of the corners by vertex.
@@ -99,6 +90,25 @@ void LaplacianPattern::find_incident(const FlatMesh& mesh, const Context& contex
   incident_begin_[0] = 0;
 }
 
+/// The column of a vertex with few faces, and their slots.
+void LaplacianPattern::find_surfel_column(const FlatMesh& mesh, Index v, SmallRanks& ranks) {
+  const auto begin = static_cast<std::size_t>(incident_begin_[static_cast<std::size_t>(v)]);
+  const auto end = static_cast<std::size_t>(incident_begin_[static_cast<std::size_t>(v) + 1]);
+  ranks.clear();
+  if (begin == end) return ranks.sort();
+  ranks.push(static_cast<VertexId>(v));  // in every face
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto corner = static_cast<std::size_t>(incident_[k]);
+    for (std::size_t j = 1; j < 4; ++j) ranks.push(mesh.corners[corner ^ j]);
+  }
+  ranks.sort();
+  std::size_t pushed = 1;
+  for (std::size_t k = begin; k < end; ++k, pushed += 3) {
+    surfel_slots_[k] = {ranks.rank(0), ranks.rank(pushed), ranks.rank(pushed + 1),
+                        ranks.rank(pushed + 2)};
+  }
+}
+
 void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context) {
   const Index V = mesh.vertices();
   if (digital_) {
@@ -113,20 +123,19 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context
     std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kGrain)];
     part.reserve(static_cast<std::size_t>(10 * (last - first)));
     Column column;
+    SmallRanks ranks;
     for (Index v = first; v < last; ++v) {
       const std::int32_t begin = incident_begin_[static_cast<std::size_t>(v)];
       const std::int32_t end = incident_begin_[static_cast<std::size_t>(v) + 1];
-      column.clear();
-      if (digital_) {
-        for (std::int32_t k = begin; k < end; ++k) {
-          for (const VertexId id : mesh.face(place(mesh, k).face)) column.insert(id);
-        }
-      } else {
-        for (std::int32_t k = begin; k < end; ++k) {
-          for (const VertexId id : mesh.face(place(mesh, k).face)) column.append(id);
-        }
-        column.sort_unique();
+      if (digital_ && 1 + 3 * static_cast<std::size_t>(end - begin) <= SmallRanks::kMost) {
+        find_surfel_column(mesh, v, ranks);
+        part.insert(part.end(), ranks.sorted().begin(), ranks.sorted().end());
+        outer_[static_cast<std::size_t>(v) + 1] = static_cast<std::int32_t>(ranks.sorted().size());
+        continue;
       }
+      column.clear();
+      for (std::int32_t k = begin; k < end; ++k) column.append(mesh.face(place(mesh, k).face));
+      column.sort();
       if (digital_ && column.ids().size() > kMostSurfelEntries) {
         throw InputError("vertex " + std::to_string(v) + " has " +
                          std::to_string(column.ids().size()) +
@@ -166,23 +175,31 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context
   });
 }
 
-void LaplacianPattern::find_blocks() {
+void LaplacianPattern::find_blocks(const Context& context) {
   // The faces of a block, 32 bytes each, should stay in the cache of a core; but those between two
   // blocks, about one slice of the volume, are computed for both.
   constexpr Index kBlock = 32768;
-  Index done = 0, total = 0;
-  for (Index v = 0; v < vertices(); v += kBlock) {
-    Block block{v, std::min(v + kBlock, vertices()), done, done, done};
-    const auto first = incident_begin_[static_cast<std::size_t>(block.first_vertex)];
-    const auto last = incident_begin_[static_cast<std::size_t>(block.last_vertex)];
-    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-      const Index face = incident_[k] >> 2;
-      block.first_face = std::min(block.first_face, face);
-      block.last_face = std::max(block.last_face, face + 1);
+  blocks_.resize(static_cast<std::size_t>((vertices() + kBlock - 1) / kBlock));
+  parallel_for(context, vertices(), kBlock, [&](Index v, Index last_vertex) {
+    const auto begin = static_cast<std::size_t>(incident_begin_[static_cast<std::size_t>(v)]);
+    const auto end =
+        static_cast<std::size_t>(incident_begin_[static_cast<std::size_t>(last_vertex)]);
+    std::int32_t least = static_cast<std::int32_t>(corners_), greatest = -1;
+    for (std::size_t k = begin; k < end; ++k) {
+      least = std::min(least, incident_[k]);
+      greatest = std::max(greatest, incident_[k]);
     }
-    total += block.last_face - block.first_face;
+    // Where no face is: the end and the begin.
+    blocks_[static_cast<std::size_t>(v / kBlock)] = {v, last_vertex, least >> 2,
+                                                     (greatest >> 2) + 1, 0};
+  });
+  Index done = 0, total = 0;
+  for (Block& block : blocks_) {
+    block.first_face = std::min(block.first_face, done);
+    block.last_face = std::max(block.last_face, done);
+    block.own_face = done;
     done = block.last_face;
-    blocks_.push_back(block);
+    total += block.last_face - block.first_face;
   }
   if (total > 2 * faces_ + kBlock) blocks_.clear();
 }

@@ -19,6 +19,7 @@
 
 namespace dsc {
 
+class SmallRanks;
 struct LaplaceSystem;
 
 /// The sparsity of the Laplacian of one set of corners, and the way to fill it.
@@ -47,6 +48,7 @@ class LaplacianPattern {
  private:
   void find_incident(const FlatMesh& mesh, const Context& context);
   void find_columns(const FlatMesh& mesh, const Context& context);
+  void find_surfel_column(const FlatMesh& mesh, Index v, SmallRanks& ranks);
   Index fill_surfels(const FlatMesh& mesh, const CalculusOptions& options, double* values,
                      double* mass, const Context& context) const;
   Index fill_polygons(const FlatMesh& mesh, const CalculusOptions& options, double* values,
@@ -58,7 +60,7 @@ class LaplacianPattern {
     Index first_face, last_face;
     Index own_face;  ///< faces from here on are in no earlier block
   };
-  void find_blocks();
+  void find_blocks(const Context& context);
 
   /// The face of an incident corner and the corner's place in it.
   struct Place {

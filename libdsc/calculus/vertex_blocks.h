@@ -23,12 +23,16 @@ class VertexBlocks {
       : vertices_(mesh.vertices()), faces_(mesh.faces()) {
     ranges_.resize(static_cast<std::size_t>((faces_ + kGrain - 1) / kGrain));
     parallel_for(context, faces_, kGrain, [&](Index first, Index last) {
+      const auto begin = static_cast<std::size_t>(mesh.first_corner(first));
+      const auto end = static_cast<std::size_t>(mesh.first_corner(last));
       Range range{static_cast<VertexId>(vertices_), -1};
-      for (Index f = first; f < last; ++f) {
-        for (const VertexId v : mesh.face(f)) {
-          check_vertex(mesh, f, v);
-          range.least = std::min(range.least, v);
-          range.greatest = std::max(range.greatest, v);
+      for (const VertexId v : mesh.corners.subspan(begin, end - begin)) {
+        range.least = std::min(range.least, v);
+        range.greatest = std::max(range.greatest, v);
+      }
+      if (range.least < 0 || range.greatest >= vertices_) {
+        for (Index f = first; f < last; ++f) {
+          for (const VertexId v : mesh.face(f)) check_vertex(mesh, f, v);
         }
       }
       ranges_[static_cast<std::size_t>(first / kGrain)] = range;
