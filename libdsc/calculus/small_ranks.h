@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// The order of a few numbers, found without a branch on their values.
 #pragma once
 
