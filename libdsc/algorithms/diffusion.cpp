@@ -4,6 +4,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/calculus/assembly.h"
 #include "libdsc/solve/checkerboard.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& c
     throw UsageError("heat: the time step " + std::to_string(t) + " is not positive and finite");
   }
   if ((system.mass.array() == 0).any()) {  // columns without a diagonal entry
+    context.need("heat matrix", 3 * matrix_bytes(system.L));
     SparseMatrix diagonal(system.L.rows(), system.L.cols());
     diagonal.setIdentity();
     for (Index v = 0; v < system.L.rows(); ++v) {
@@ -24,6 +26,7 @@ SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& c
     }
     return diagonal - t * system.L;
   }
+  context.need("heat matrix", matrix_bytes(system.L));
   SparseMatrix A = system.L;  // the pattern is that of L: the values alone differ
   parallel_for(context, A.cols(), 4096, [&](Index first, Index last) {
     for (Index v = first; v < last; ++v) {
@@ -32,7 +35,7 @@ SparseMatrix heat_matrix(const LaplaceSystem& system, double t, const Context& c
       }
     }
   });
-  return A;
+  return take(A);
 }
 
 namespace {
@@ -68,7 +71,7 @@ HeatDiffusion::HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOpti
   }
   mass_ = std::move(system.mass);
   system.L.resize(0, 0);
-  solver_ = make_solver(options.factory, std::move(A), options.solver, context);
+  solver_ = make_solver(options.factory, take(A), options.solver, context);
 }
 
 Solution HeatDiffusion::step(const Eigen::VectorXd& u0) const {

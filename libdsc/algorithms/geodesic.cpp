@@ -11,6 +11,7 @@
 #include "libdsc/solve/boundary.h"
 #include "libdsc/solve/checkerboard.h"
 #include "libdsc/solve/dirichlet.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -42,6 +43,7 @@ double mean_edge(const FlatMesh& mesh) {
 }
 
 SparseMatrix negated(const SparseMatrix& L, const Context& context) {
+  context.need("assemble", matrix_bytes(L));
   SparseMatrix A = L;
   parallel_for(context, A.nonZeros(), 1 << 16, [&](Index first, Index last) {
     for (double* value = A.valuePtr() + first; value != A.valuePtr() + last; ++value) {
@@ -68,9 +70,9 @@ SparseMatrix hold(const SparseMatrix& A, std::span<const char> fixed) {
 
 /// The direct diffusion for one t, without and, where wanted, with w = 0 on the boundary.
 struct DirectHeat {  // empty where bands are followed
-  SparseMatrix A;
   std::unique_ptr<SpdSolver> reflected;
   std::unique_ptr<SpdSolver> absorbed;
+  const SparseMatrix& A() const { return reflected->matrix(); }
 };
 
 }  // namespace
@@ -86,7 +88,7 @@ struct GeodesicSolver::Data {
   double hop = 0;  ///< what a breadth-first level advances at least, roughly
   HeatMethod method = HeatMethod::direct;
   LaplaceSystem diffused;  ///< that of the heat
-  SparseMatrix heat;       ///< M0 - t L
+  SparseMatrix heat;       ///< M0 - t L, of bands; the direct solver has its own
   DirectHeat direct;
   std::unique_ptr<NeumannSolver> poisson;
   std::optional<CheckerboardFilter> filter;  ///< mercat's
@@ -94,13 +96,16 @@ struct GeodesicSolver::Data {
   double seconds_factorize = 0;
 
   const LaplaceSystem& of_heat() const { return filter ? diffused : system; }
+  const SparseMatrix& heat_operator() const { return direct.reflected ? direct.A() : heat; }
 
   DirectHeat factorize(double t, const Context& context) const {
     DirectHeat h;
-    h.A = heat_matrix(of_heat(), t, context);
-    h.reflected = make_solver(options.factory, h.A, {}, context);
-    if (!boundary.empty())
-      h.absorbed = make_solver(options.factory, hold(h.A, boundary), {}, context);
+    SparseMatrix A = heat_matrix(of_heat(), t, context);
+    if (!boundary.empty()) {
+      context.need("heat matrix", matrix_bytes(A));
+      h.absorbed = make_solver(options.factory, hold(A, boundary), {}, context);
+    }
+    h.reflected = make_solver(options.factory, take(A), {}, context);
     return h;
   }
 
@@ -122,7 +127,7 @@ struct GeodesicSolver::Data {
     WideVector delta(mesh.vertices());
     for (const VertexId s : sources) delta.set(s, {1, 0});
     w = h.reflected->solve_wide(delta);
-    residual = componentwise_residual(h.A, w, sources, {}, context);
+    residual = componentwise_residual(h.A(), w, sources, {}, context);
     if (!(residual <= kHeatTolerance) || !reaches_everywhere(w, with_source)) return false;
     if (!h.absorbed) return true;
     bool any = false;
@@ -149,13 +154,14 @@ struct GeodesicSolver::Data {
       return static_cast<Index>(std::min(std::ceil(n * stretch), 1e9));
     };
     FrontOptions front_options{levels(16), levels(8)};
+    const SparseMatrix& A = heat_operator();
     for (const bool absorb : {false, true}) {
       if (absorb && boundary.empty()) break;
       const std::span<const char> fixed =
           absorb ? std::span<const char>(boundary) : std::span<const char>();
       for (;;) {
-        HeatFront front = diffuse_front(heat, sources, fixed, front_options, context);
-        const double residual = componentwise_residual(heat, front.w, sources, fixed, context);
+        HeatFront front = diffuse_front(A, sources, fixed, front_options, context);
+        const double residual = componentwise_residual(A, front.w, sources, fixed, context);
         if (!(residual <= kHeatTolerance)) {
           if (front.bands <= 1) {
             throw SolverError("geodesic: heat could not be diffused; the residual is " +
@@ -218,12 +224,13 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   context.begin("factorize");
   if (data->method == HeatMethod::direct) {
     data->direct = data->factorize(data->time, context);
+  } else {
+    SparseMatrix heat = heat_matrix(data->of_heat(), data->time, context);
+    data->heat.swap(heat);
   }
-  data->heat = data->direct.A.size() != 0 ? data->direct.A
-                                          : heat_matrix(data->of_heat(), data->time, context);
-  data->poisson =
-      std::make_unique<NeumannSolver>(negated(data->system.L, context), std::move(classes),
-                                      options.poisson, context, options.factory);
+  // Not make_unique, which would copy the matrix.
+  data->poisson.reset(new NeumannSolver(negated(data->system.L, context), std::move(classes),
+                                        options.poisson, context, options.factory));
   data->seconds_factorize = seconds_since(factorize);
   data_ = std::move(data);
 }
@@ -281,6 +288,8 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
 
   context.check();
   context.begin("distance");
+  // Directions, their divergence, the guess, and what the solver iterates with.
+  context.need("distance", 24 * d.mesh.faces() + 120 * n);
   HeatDirections directions = heat_directions(d.mesh, w, report.time, d.options.calculus, context);
   report.flat_faces = directions.flat_faces;
   report.negative_faces = directions.negative_faces;
@@ -297,7 +306,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
   report.poisson_iterations = phi.iterations;
   result.distance = std::move(phi.x);
   if (d.filter) d.filter->remove(result.distance, d.weight);
-  anchor_sources(result.distance, d.heat, w, sources);
+  anchor_sources(result.distance, d.heat_operator(), w, sources);
 
   for (Index v = 0; v < n; ++v) {
     double& distance = result.distance[v];

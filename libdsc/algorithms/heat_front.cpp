@@ -85,6 +85,7 @@ class Front {
   /// memory is that of a few bands.
   void advance(const Context& context) {
     const Index group = 4 * static_cast<Index>(thread_count(context));
+    context.need("heat", bytes_at_once(group));
     std::vector<std::optional<LdltFactor>> factors;
     for (Index k0 = 0; k0 < bands(); k0 += group) {
       const Index k1 = std::min(bands(), k0 + group);
@@ -95,7 +96,7 @@ class Front {
         factors[static_cast<std::size_t>(i)].emplace(
             band_matrix(A_, levels_, levels_.start(level),
                         levels_.start(level + options_.band + options_.overlap)),
-            FillOrder::minimum_degree);
+            FillOrder::minimum_degree);  // its memory is that of the whole group, asked for above
       });
       for (Index k = k0; k < k1; ++k) {
         const Index level = k * options_.band;
@@ -125,6 +126,21 @@ class Front {
   }
 
  private:
+  /// The bands of a group, where that has the most unknowns: a front of some width crosses each, so
+  /// that L has about as many nonzeros a column as the band has levels.
+  Index bytes_at_once(Index group) const {
+    Index most = 0;
+    for (Index k0 = 0; k0 < bands(); k0 += group) {
+      Index unknowns = 0;
+      for (Index k = k0; k < std::min(bands(), k0 + group); ++k) {
+        const Index level = k * options_.band;
+        unknowns += levels_.start(level + options_.band + options_.overlap) - levels_.start(level);
+      }
+      most = std::max(most, unknowns);
+    }
+    return 12 * (options_.band + options_.overlap + 20) * most + 16 * A_.rows();
+  }
+
   /// Solves on the levels [first, beyond), whose matrix has this factor, and keeps those before
   /// `last`.
   void solve(const LdltFactor& factor, Index first, Index last, Index beyond,

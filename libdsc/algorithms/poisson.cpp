@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/calculus/assembly.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <string>
 #include <utility>
@@ -35,6 +36,7 @@ PoissonProblem::PoissonProblem(const FlatMesh& mesh, std::span<const VertexId> f
   for (double& w : weight_) {
     if (w == 0) w = 1;
   }
+  context.need("assemble", 2 * matrix_bytes(system.L));
   SparseMatrix A = -system.L;
   system.L.resize(0, 0);
   Components classes = kernel_classes(mesh, options.calculus.stabilization);

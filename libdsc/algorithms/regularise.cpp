@@ -51,6 +51,9 @@ RegularisedPositions regularise_positions(const FlatMesh& mesh, const Regularise
   if (mesh.faces() == 0) return result;
 
   context.begin("regularise");
+  // Positions and what the solver iterates with, the inverse blocks; around each vertex its
+  // neighbours and corners.
+  context.need("regularise", (10 * 24 + 72 + 16) * V + 64 * mesh.corner_count());
   const RegulariseEnergy energy(mesh, options, context);
   // Around one of the positions: a far origin costs no digits.
   const Vec3 origin = mesh.positions[0];

@@ -1,5 +1,6 @@
 /// \file
-/// How a long computation is run: on how many threads, watched and cancelled by whom.
+/// How a long computation is run: on how many threads, watched and cancelled by whom, in how
+/// much memory.
 ///
 /// Every long function takes a `const Context&` as its last argument. There is no global state, so
 /// two computations may run side by side with different settings.
@@ -37,10 +38,28 @@ class Monitor {
   static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
+/// Bounds the memory of a computation; io/memory_limit.h has the one of a whole process. Each stage
+/// asks for what it will take beside what is held already, before it takes it: systems grant more
+/// memory than there is, and kill the process later.
+class MemoryLimit {
+ public:
+  MemoryLimit() = default;
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  virtual ~MemoryLimit() = default;
+
+  /// A stage is about to take `bytes` more, by its estimate. Called from any thread.
+  /// \throws LimitError naming the stage, what it needs and what is allowed.
+  virtual void need(std::string_view stage, Index bytes) const = 0;
+  /// The bytes that a stage may still take.
+  virtual Index left() const = 0;
+};
+
 /// Settings of a run. Results never depend on `threads`.
 struct Context {
-  int threads = 0;             ///< 0: one per core
-  Monitor* monitor = nullptr;  ///< not owned; may be null
+  int threads = 0;                      ///< 0: one per core
+  Monitor* monitor = nullptr;           ///< not owned; may be null
+  const MemoryLimit* memory = nullptr;  ///< not owned; null: no limit
 
   /// Tells the monitor, where there is one.
   /// @{
@@ -51,6 +70,10 @@ struct Context {
     if (monitor != nullptr) monitor->advance(units);
   }
   /// @}
+  /// \throws LimitError where the limit does not leave the bytes that a stage will take.
+  void need(std::string_view stage, Index bytes) const {
+    if (memory != nullptr) memory->need(stage, bytes);
+  }
   /// \throws Cancelled where the monitor has been asked to stop.
   void check() const {
     if (monitor != nullptr && monitor->cancelled()) throw Cancelled();

@@ -49,9 +49,21 @@ LaplacianPattern::LaplacianPattern(const FlatMesh& mesh, const Context& context)
           pairs_[static_cast<std::size_t>(f)] + checked_product(n, n, "pairs of corners of a face");
     }
   }
+  need_memory(mesh, context);
   find_incident(mesh, context);
   find_columns(mesh, context);
   if (digital_) find_blocks(context);
+}
+
+void LaplacianPattern::need_memory(const FlatMesh& mesh, const Context& context) const {
+  // At most all corners of all faces around a vertex, and itself, are in its column; the columns
+  // are collected, with room for 10 entries each, and joined.
+  const Index pairs = pairs_before(faces_);
+  const Index most = mesh.vertices() + pairs - corners_;
+  const Index slots = pairs * (digital_ ? 1 : 4);
+  const Index incident = (mesh.offsets.empty() ? 4 : 8) * corners_;
+  context.need("laplacian pattern", slots + incident + 8 * mesh.vertices() + 4 * most +
+                                        4 * std::max(most, 10 * mesh.vertices()));
 }
 
 /// A counting sort of the corners by vertex.
@@ -206,6 +218,10 @@ void LaplacianPattern::find_blocks(const Context& context) {
 
 LaplaceSystem LaplacianPattern::assemble(const FlatMesh& mesh, const CalculusOptions& options,
                                          const Context& context) const {
+  // The matrix and the mass; what faces contribute is kept by polygons, by surfels for a block
+  // only.
+  context.need("laplacian", 12 * nonzeros() + 12 * vertices() +
+                                (digital_ ? 0 : 8 * (pairs_before(faces_) + faces_)));
   LaplaceSystem system;
   system.L.resize(vertices(), vertices());
   system.L.resizeNonZeros(nonzeros());

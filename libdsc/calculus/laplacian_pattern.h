@@ -46,6 +46,7 @@ class LaplacianPattern {
               const Context& context = {}) const;
 
  private:
+  void need_memory(const FlatMesh& mesh, const Context& context) const;
   void find_incident(const FlatMesh& mesh, const Context& context);
   void find_columns(const FlatMesh& mesh, const Context& context);
   void find_surfel_column(const FlatMesh& mesh, Index v, SmallRanks& ranks);

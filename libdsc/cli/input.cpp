@@ -104,8 +104,8 @@ Input read_file(Run& run) {
     selection.threshold = {(*options.threshold)[0], (*options.threshold)[1]};
   }
   selection.labels = options.labels;
-  std::unique_ptr<VolumeSource> source =
-      options.raw ? open_raw_volume(options.input, *options.raw) : open_volume(options.input);
+  std::unique_ptr<VolumeSource> source = options.raw ? open_raw_volume(options.input, *options.raw)
+                                                     : open_volume(options.input, run.context);
   if (options.gridstep) {
     source = std::make_unique<RespacedSource>(std::move(source), *options.gridstep);
   }

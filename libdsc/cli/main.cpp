@@ -5,6 +5,7 @@
 #include "libdsc/cli/options.h"
 #include "libdsc/cli/progress.h"
 #include "libdsc/cli/run.h"
+#include "libdsc/io/memory_limit.h"
 
 #include <cstdio>
 #include <exception>
@@ -50,7 +51,9 @@ void print(const std::string& text) {
 }
 
 void run_and_report(const Options& options, ProgressBar& bar) {
-  Run run{options, {options.threads, &bar}, {}};
+  const ProcessMemory memory =
+      options.max_memory ? ProcessMemory(*options.max_memory, "by --max-memory") : ProcessMemory();
+  Run run{options, {options.threads, &bar, &memory}, {}};
   {
     const Stopwatch watch(run.report.timings.total);
     run_command(run);

@@ -58,6 +58,26 @@ Index3 parse_size(std::string_view text, const std::string& option) {
   return {static_cast<Index>(n[0]), static_cast<Index>(n[1]), static_cast<Index>(n[2])};
 }
 
+Index parse_bytes(std::string_view text, const std::string& option) {
+  constexpr std::string_view kUnits = "KMG";
+  std::string_view digits = text;
+  double unit = 1;
+  const std::size_t which = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+  if (which != std::string_view::npos) {
+    unit = std::ldexp(1., 10 * (static_cast<int>(which) + 1));
+    digits.remove_suffix(1);
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const double bytes = value * unit;
+  if (error != std::errc() || end != digits.data() + digits.size() ||
+      !(bytes >= 1 && bytes < 0x1p62)) {
+    throw UsageError(option + " " + std::string(text) +
+                     ": expected a positive size in bytes, such as 500M or 2G");
+  }
+  return static_cast<Index>(bytes);
+}
+
 LabelPair parse_labels(std::string_view text, const std::string& option) {
   const auto is_label = [](double n) {
     return n >= 0 && n <= std::numeric_limits<Label>::max() && n == std::floor(n);

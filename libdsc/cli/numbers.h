@@ -23,6 +23,10 @@ Vec3 parse_spacing(std::string_view text, const std::string& option);
 /// Three positive whole numbers. \throws UsageError naming `option`.
 Index3 parse_size(std::string_view text, const std::string& option);
 
+/// Bytes: a positive number, whole or not, and K, M or G (powers of 1024) after it or nothing.
+/// \throws UsageError naming `option`.
+Index parse_bytes(std::string_view text, const std::string& option);
+
 /// Two different labels. \throws UsageError naming `option`.
 LabelPair parse_labels(std::string_view text, const std::string& option);
 

@@ -109,6 +109,13 @@ void add_run(CLI::App& app, Options& o, bool writes) {
   app.add_option("--threads", o.threads, "threads to use (default: one per core)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024).description(""));
+  app.add_option_function<std::string>(
+         "--max-memory",
+         [&o](const std::string& text) { o.max_memory = parse_bytes(text, "--max-memory"); },
+         "bytes of memory to use at most, with K, M or G for powers of 1024: a stage that would "
+         "need more is refused before it begins, with exit code 4 (default: what the machine, or "
+         "the container, has available)")
+      ->type_name("SIZE");
   app.add_flag("--quiet", o.quiet, "no progress bar and no summary");
   name_group(app, "Run");
 }

@@ -88,6 +88,7 @@ struct Options {
   std::vector<std::string> outputs;
   std::string report;
   int threads = 0;
+  std::optional<Index> max_memory;  ///< bytes
   bool quiet = false;
 
   std::set<std::string> typed;  ///< the options that stand on the command line, as "--radius"

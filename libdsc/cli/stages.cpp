@@ -217,6 +217,15 @@ std::vector<VertexId> find_sources(const Scene& scene, Run& run) {
 void write_outputs(const Scene& scene, const Result& result, Run& run) {
   if (run.options.outputs.empty()) return;
   const Stopwatch watch(run.report.timings.write);
+  // The labels as fields; what is turned into the world of a medical image.
+  const Index vectors = std::count_if(result.fields.begin(), result.fields.end(),
+                                      [](const Field& field) { return field.parts.size() == 3; });
+  const Index faces = result.mesh.faces(), vertices = result.mesh.vertices();
+  run.context.need("write", (scene.surface.labels().empty() ? 0 : 16 * faces) +
+                                (scene.input.world.is_identity()
+                                     ? 0
+                                     : 24 * vertices + 4 * result.mesh.corner_count() +
+                                           24 * vectors * std::max(faces, vertices)));
   const LabelColumns labels(scene.surface.labels());
   Result labelled = result;
   labels.append_to(labelled.fields);

@@ -133,21 +133,34 @@ Index ChildProcess::read(void* to, Index bytes, const Context& context) {
   Index done = 0;
   while (done < bytes) {
     context.check();
-    if (!wait_for_output()) continue;
+    if (!wait_for_output()) {
+      check_patience();
+      continue;
+    }
     const ssize_t n =
         ::read(output_, static_cast<char*>(to) + done, static_cast<std::size_t>(bytes - done));
     if (n == 0) break;
-    if (n > 0) done += n;
+    if (n <= 0) continue;
+    done += n;
+    last_sign_ = std::chrono::steady_clock::now();
   }
   return done;
 }
 
-std::string ChildProcess::finish(const Context& context) {
+/// After the kill its output ends, and so does read().
+void ChildProcess::check_patience() {
+  if (given_up_ || std::chrono::steady_clock::now() - last_sign_ < patience_) return;
+  given_up_ = true;
+  (void)::kill(pid_, SIGKILL);
+}
+
+ChildProcess::Ending ChildProcess::finish(const Context& context) {
   int status = 0;
   for (;;) {
     context.check();
     const pid_t ended = ::waitpid(pid_, &status, WNOHANG);
     if (ended == pid_) break;
+    check_patience();
     pollfd file{errors_, POLLIN, 0};
     (void)::poll(&file, 1, kPollMilliseconds / 10);
     keep_errors();
@@ -155,16 +168,25 @@ std::string ChildProcess::finish(const Context& context) {
   replace_child(pid_, 0);
   pid_ = -1;
   keep_errors();
-  if (WIFSIGNALED(status)) {
-    return std::string("its reader was ended by the signal '") + ::strsignal(WTERMSIG(status)) +
-           "'; the file is damaged or too large";
+  if (given_up_) {
+    const auto seconds = static_cast<Index>(patience_.count());
+    return {"its reader sent nothing for " + std::to_string(seconds) +
+                " seconds and was given up; the file is damaged, or the disk or network too slow: "
+                "DSC_IMAGE_READER_SECONDS allows more",
+            false};
   }
-  if (WEXITSTATUS(status) == 0) return "";
+  if (WIFSIGNALED(status)) {
+    return {std::string("its reader was ended by the signal '") + ::strsignal(WTERMSIG(status)) +
+                "'; the file is damaged or too large",
+            false};
+  }
+  if (WEXITSTATUS(status) == 0) return {};
   while (error_text_.ends_with('\n')) error_text_.pop_back();
   const std::size_t line = error_text_.rfind('\n');
   const std::string last = line == std::string::npos ? error_text_ : error_text_.substr(line + 1);
-  return last.empty() ? "its reader gave up with exit code " + std::to_string(WEXITSTATUS(status))
-                      : last;
+  return {last.empty() ? "its reader gave up with exit code " + std::to_string(WEXITSTATUS(status))
+                       : last,
+          WEXITSTATUS(status) == kTooLarge};
 }
 
 }  // namespace dsc::detail

@@ -6,6 +6,7 @@
 #include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,23 @@ class ChildProcess {
   /// gone might go on for ever. Only calls what a signal handler may.
   static void kill_all() noexcept;
 
-  /// The next bytes of its standard output, at most `bytes`; fewer only where the output ends.
-  /// \throws Cancelled within about a tenth of a second.
+  /// It is given up, and killed, where it sends nothing and does not end for as long.
+  void set_patience(std::chrono::duration<double> patience) { patience_ = patience; }
+
+  /// The next bytes of its standard output, at most `bytes`; fewer only where the output ends, or
+  /// where it was given up. \throws Cancelled within about a tenth of a second.
   Index read(void* to, Index bytes, const Context& context);
 
-  /// Waits for its end. \return "" where it exited with 0, else why not: the last line that it
-  /// wrote to standard error, or the signal that ended it.
-  std::string finish(const Context& context);
+  /// How it ended.
+  struct Ending {
+    std::string why;         ///< "" where it exited with 0
+    bool too_large = false;  ///< it exited with kTooLarge
+  };
+  static constexpr int kTooLarge = 4;
+
+  /// Waits for its end; why is the last line that it wrote to standard error, or the signal that
+  /// ended it, or that it was given up.
+  Ending finish(const Context& context);
 
  private:
   /// Waits until there is output, keeping what comes on standard error. \return false where nothing
@@ -44,7 +55,12 @@ class ChildProcess {
   pid_t pid_ = -1;
   int output_ = -1;
   int errors_ = -1;
+  void check_patience();
+
   std::string error_text_;  ///< its end
+  std::chrono::duration<double> patience_ = std::chrono::hours(24);
+  std::chrono::steady_clock::time_point last_sign_ = std::chrono::steady_clock::now();
+  bool given_up_ = false;
 };
 
 }  // namespace dsc::detail

@@ -6,6 +6,7 @@
 #include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -38,12 +39,33 @@ std::string find_reader(const std::string& image) {
                    "variable DSC_IMAGE_READER");
 }
 
+/// The image, and the bytes of memory that the reader may take.
+std::vector<std::string> reader_arguments(const std::string& path, const Context& context) {
+  std::vector<std::string> words{fs::absolute(path).string()};
+  if (context.memory != nullptr) words.push_back(std::to_string(context.memory->left()));
+  return words;
+}
+
+/// Ten minutes, as a large compressed file on a slow disk may take, or what the environment says.
+std::chrono::duration<double> patience() {
+  const char* text = std::getenv("DSC_IMAGE_READER_SECONDS");
+  if (text == nullptr || *text == '\0') return std::chrono::minutes(10);
+  char* end = nullptr;
+  const double seconds = std::strtod(text, &end);
+  if (*end != '\0' || !(seconds > 0 && seconds < 1e9)) {
+    throw UsageError("the variable DSC_IMAGE_READER_SECONDS is '" + std::string(text) +
+                     "'; it must be a positive number of seconds");
+  }
+  return std::chrono::duration<double>(seconds);
+}
+
 class ImageSource final : public VolumeSource {
  public:
-  explicit ImageSource(const std::string& path)
-      : path_(path), reader_(find_reader(path), {fs::absolute(path).string()}) {
+  ImageSource(const std::string& path, const Context& context)
+      : path_(path), reader_(find_reader(path), reader_arguments(path, context)) {
+    reader_.set_patience(patience());
     ImageHeader header;
-    receive(&header, sizeof header, Context{});
+    receive(&header, sizeof header, context);
     if (std::memcmp(header.start, kImageStart, sizeof kImageStart) != 0) {
       throw InputError("'" + path + "': what answered is no dsc-image-reader of this version");
     }
@@ -69,18 +91,21 @@ class ImageSource final : public VolumeSource {
     if (std::memcmp(end, kImageEnd, sizeof end) != 0 || reader_.read(&beyond, 1, context) != 0) {
       throw InputError("'" + path_ + "': its reader sent more values than it had promised");
     }
-    if (const std::string why = reader_.finish(context); !why.empty()) fail(why);
+    if (const auto ending = reader_.finish(context); !ending.why.empty()) fail(ending);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const {
-    throw InputError("'" + path_ + "': " + why);
+  [[noreturn]] void fail(const ChildProcess::Ending& ending) const {
+    const std::string text = "'" + path_ + "': " + ending.why;
+    if (ending.too_large) throw LimitError(text);
+    throw InputError(text);
   }
 
   void receive(void* to, Index bytes, const Context& context) {
     if (reader_.read(to, bytes, context) == bytes) return;
-    const std::string why = reader_.finish(context);
-    fail(why.empty() ? "its reader ended before all values were there" : why);
+    auto ending = reader_.finish(context);
+    if (ending.why.empty()) ending.why = "its reader ended before all values were there";
+    fail(ending);
   }
 
   void take(const ImageHeader& header) {
@@ -127,9 +152,9 @@ bool is_image(const std::string& path) {
   return fs::is_directory(path, error);
 }
 
-std::unique_ptr<VolumeSource> open_image(const std::string& path) {
+std::unique_ptr<VolumeSource> open_image(const std::string& path, const Context& context) {
   if (!fs::exists(path)) throw InputError("cannot read '" + path + "': it does not exist");
-  return std::make_unique<ImageSource>(path);
+  return std::make_unique<ImageSource>(path, context);
 }
 
 }  // namespace dsc::detail

@@ -29,6 +29,9 @@ std::vector<std::string> vector_parts(const std::string& name);
 Eigen::Matrix3Xd columns_of(const std::vector<double>& xyz);
 
 /// "1 face", "2 faces".
+/// What the offsets and corners of faces take while they grow, most of them triangles or quads.
+inline Index faces_bytes(Index faces) { return (8 + 36) * faces; }
+
 std::string counted(Index n, const std::string& singular, const std::string& plural);
 
 }  // namespace dsc::detail

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 15> kSilent{
 class ObjReader {
  public:
   ObjReader(InputFile& file, const Context& context)
-      : lines_(file, [&context](Index bytes) {
+      : context_(context), lines_(file, [&context](Index bytes) {
           context.check();
           context.advance(bytes);
         }) {
@@ -67,7 +67,15 @@ class ObjReader {
     }
   }
 
+  /// The format has no counts, so that memory is asked for as vectors grow to twice their size.
+  template <class T>
+  void need_room(const std::vector<T>& values) const {
+    if (values.size() + 3 <= values.capacity()) return;
+    context_.need("read", 2 * static_cast<Index>(values.size() * sizeof(T)));
+  }
+
   void vertex() {
+    need_room(xyz_);
     for (int k = 0; k < 3; ++k) xyz_.push_back(lines_.finite("a coordinate"));
     // Beyond: a weight, or a colour of three or four parts.
     std::array<double, 5> beyond{};
@@ -85,6 +93,8 @@ class ObjReader {
   }
 
   void face() {
+    need_room(mesh_.corners);
+    need_room(mesh_.offsets);
     std::size_t count = 0;
     const Index vertices = std::ssize(xyz_) / 3;
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word(), ++count) {
@@ -148,6 +158,7 @@ class ObjReader {
                   std::to_string(vertices) + " and " + std::to_string(faces) +
                   "; the file is truncated, or remove the first line");
     }
+    context_.need("read", 24 * vertices);
     mesh_.positions = columns_of(xyz_);
     lines_.remark_unended_number(mesh_.remarks);
     if (coloured_ > 0) {
@@ -164,6 +175,7 @@ class ObjReader {
     Index vertices = 0, faces = 0;
   };
 
+  const Context& context_;
   TextLines lines_;
   std::string joined_;
   std::vector<double> xyz_;

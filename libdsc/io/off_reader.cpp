@@ -115,6 +115,7 @@ PolygonMesh read_off(InputFile& file, const Context& context) {
   }
   PolygonMesh mesh;
   checked_id(vertices, "vertices");
+  context.need("read", (kind.normals ? 60 : 24) * vertices + faces_bytes(faces));
   read_vertices(lines, vertices, kind, mesh);
   read_faces(lines, faces, mesh);
   if (lines.next_with_content()) {

@@ -127,6 +127,11 @@ OpenMeshIo::~OpenMeshIo() {
 }
 
 std::vector<std::string> write_om(AtomicFile& file, const Result& result, const Context& context) {
+  // OpenMesh's mesh and how it is linked, its bytes while they grow, and what they read back to.
+  Index values = 0;
+  for (const Field& field : result.fields) values += static_cast<Index>(field.values.size());
+  context.need("write",
+               160 * result.mesh.vertices() + 90 * result.mesh.corner_count() + 40 * values);
   SurfaceMesh mesh;
   std::vector<VertexId> copied;
   {

@@ -3,6 +3,7 @@
 #include "libdsc/io/mesh_formats.h"
 #include "libdsc/io/ply_values.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -110,21 +111,34 @@ class PlyReader {
     }
   }
 
+  void check_coordinates(const PlyElement& element) const {
+    for (const char* axis : {"x", "y", "z"}) {
+      const auto& all = element.properties;
+      const bool found = std::any_of(
+          all.begin(), all.end(), [&](const PlyProperty& p) { return !p.count && p.name == axis; });
+      if (!found) lines_.fail("the vertices lack x, y or z");
+    }
+  }
+
+  /// What make_fields() takes, and a little more: the coordinates are no field.
+  static Index fields_bytes(const PlyElement& element) {
+    return 8 * static_cast<Index>(element.properties.size()) * element.count;
+  }
+
   void read_vertices(const PlyElement& element) {
+    check_coordinates(element);  // without a property there is no bound for the count
     checked_id(element.count, "vertices");
+    context_.need("read", 24 * element.count + fields_bytes(element));
     mesh_.positions.resize(3, element.count);
     std::vector<Column> columns = make_fields(element, FieldOn::vertex, {"x", "y", "z"});
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-    std::array<bool, 3> found{};
     for (std::size_t i = 0; i < columns.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         const PlyProperty& p = element.properties[i];
         if (p.count || p.name != kAxes[k]) continue;
         columns[i] = {mesh_.positions.data() + k, 3};
-        found[k] = true;
       }
     }
-    if (!(found[0] && found[1] && found[2])) lines_.fail("the vertices lack x, y or z");
     note_lists(element, "");
     for (Index v = 0; v < element.count; ++v) {
       values_->begin(element.name, v);
@@ -156,6 +170,7 @@ class PlyReader {
     }
     const PlyProperty& list = element.properties[corners];
     if (!is_integer(list.type)) lines_.fail("the corners of faces must be of an integer type");
+    context_.need("read", faces_bytes(element.count) + fields_bytes(element));
     const std::vector<Column> columns = make_fields(element, FieldOn::face, {});
     note_lists(element, list.name);
     mesh_.offsets.reserve(static_cast<std::size_t>(element.count) + 1);

@@ -165,6 +165,7 @@ void VoxelSelection::check() const {
 BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& selection,
                          const Context& context) {
   selection.check();
+  context.need("read", BinaryVolume::bytes_for(source.grid()));
   BinaryVolume volume(source.grid());
   context.begin("read", source.grid().size[source.x_fastest() ? 2 : 0]);
   source.read(
@@ -187,7 +188,7 @@ BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& selection,
 BinaryVolume read_binary(const std::string& path, const VoxelSelection& selection,
                          const Context& context) {
   selection.check();
-  return read_binary(*open_volume(path), selection, context);
+  return read_binary(*open_volume(path, context), selection, context);
 }
 
 }  // namespace dsc

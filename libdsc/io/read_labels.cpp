@@ -86,7 +86,11 @@ LabelVolume read_labels(VolumeSource& source, const Context& context) {
         std::visit(
             [&](auto values) {
               using T = std::remove_cv_t<typename decltype(values)::element_type>;
-              if (!volume) volume.emplace(source.grid(), std::min<int>(4, sizeof(T)));
+              if (!volume) {
+                const int width = std::min<int>(4, sizeof(T));
+                context.need("read", LabelVolume::bytes_for(source.grid(), width));
+                volume.emplace(source.grid(), width);
+              }
               store<T>(*volume, source, slab, values, context);
             },
             slab.values);
@@ -96,7 +100,7 @@ LabelVolume read_labels(VolumeSource& source, const Context& context) {
 }
 
 LabelVolume read_labels(const std::string& path, const Context& context) {
-  return read_labels(*open_volume(path), context);
+  return read_labels(*open_volume(path, context), context);
 }
 
 }  // namespace dsc

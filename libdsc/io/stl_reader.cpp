@@ -16,6 +16,7 @@ namespace {
 /// Numbers points by their first appearance; equal coordinates are one point.
 class PointTable {
  public:
+  explicit PointTable(const Context& context) : context_(context) {}
   VertexId operator()(const Vec3& p) {
     if (std::ssize(xyz_) / 3 * 2 >= std::ssize(slots_)) grow();
     VertexId& slot = slots_[find(p)];
@@ -47,6 +48,8 @@ class PointTable {
     }
   }
   void grow() {
+    // Slots for twice the points; points twice as many, and a copy of them at the end.
+    context_.need("read", (4 * 4 + 3 * 24) * (std::ssize(xyz_) / 3));
     slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), -1);
     for (Index v = 0; v < std::ssize(xyz_) / 3; ++v) {
       const double* q = &xyz_[3 * static_cast<std::size_t>(v)];
@@ -54,6 +57,7 @@ class PointTable {
     }
   }
 
+  const Context& context_;
   std::vector<double> xyz_;
   std::vector<VertexId> slots_;  ///< open addressing; -1 is free
 };
@@ -61,6 +65,7 @@ class PointTable {
 /// Collects triangles; both encodings end here.
 class Triangles {
  public:
+  explicit Triangles(const Context& context) : table_(context) {}
   void add(const std::array<Vec3, 3>& points) {
     std::array<VertexId, 3> ids{};
     for (std::size_t i = 0; i < 3; ++i) ids[i] = table_(points[i]);
@@ -86,9 +91,10 @@ class Triangles {
 
 constexpr Index kHeader = 84, kTriangle = 50;
 
-PolygonMesh read_binary_stl(InputFile& file, Index count,
-                            const std::function<void(Index)>& on_read) {
-  Triangles triangles;
+PolygonMesh read_binary_stl(InputFile& file, Index count, const std::function<void(Index)>& on_read,
+                            const Context& context) {
+  context.need("read", faces_bytes(count));
+  Triangles triangles(context);
   file.seek(kHeader);
   ByteBlocks blocks(file, on_read);
   for (Index t = 0; t < count; ++t) {
@@ -112,7 +118,8 @@ PolygonMesh read_binary_stl(InputFile& file, Index count,
 /// Text: keywords and numbers, whatever lines they stand on.
 class TextReader {
  public:
-  TextReader(InputFile& file, const std::function<void(Index)>& on_read) : lines_(file, on_read) {}
+  TextReader(InputFile& file, const std::function<void(Index)>& on_read, const Context& context)
+      : lines_(file, on_read), triangles_(context) {}
 
   PolygonMesh read() {
     expect("solid");
@@ -201,12 +208,12 @@ PolygonMesh read_stl(InputFile& file, const Context& context) {
     std::memcpy(&count, start + 80, sizeof count);
     promised = count;
     if (file.size() - kHeader == promised * kTriangle) {
-      return read_binary_stl(file, promised, on_read);
+      return read_binary_stl(file, promised, on_read, context);
     }
   }
   if (begins_with_solid({start, static_cast<std::size_t>(head)})) {
     file.seek(0);
-    return TextReader(file, on_read).read();
+    return TextReader(file, on_read, context).read();
   }
   if (promised < 0) file.fail(file.size(), "the file is too short for an STL file");
   file.fail(80, std::to_string(promised) + " triangles take " +

@@ -17,7 +17,7 @@ std::unique_ptr<VolumeSource> open_vox(const std::string& path);
 
 /// Whether dsc-image-reader is to read it: by its extension, or because it is a folder.
 bool is_image(const std::string& path);
-std::unique_ptr<VolumeSource> open_image(const std::string& path);
+std::unique_ptr<VolumeSource> open_image(const std::string& path, const Context& context);
 
 /// Delivers the next bytes of the values.
 using ByteReader = std::function<void(void* to, Index bytes)>;

@@ -28,6 +28,8 @@ void stream_typed(Index slices, Index per_slice, bool swap, const ByteReader& ne
   const Index bytes_per_slice = checked_product(per_slice, sizeof(T), "bytes of a slice");
   const Index per_slab =
       std::clamp<Index>(kSlabBytes / std::max<Index>(1, bytes_per_slice), 1, slices);
+  // Slabs of several slices are small; a single slice may be of any size.
+  context.need("read", checked_product(bytes_per_slice, per_slab, "bytes of a slab"));
   std::vector<T> buffer(static_cast<std::size_t>(per_slice * per_slab));
   for (Index first = 0; first < slices; first += per_slab) {
     context.check();
@@ -99,7 +101,7 @@ ValueType value_type(const std::string& name) {
   return type;
 }
 
-std::unique_ptr<VolumeSource> open_volume(const std::string& path) {
+std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context) {
   const std::string extension = detail::extension_of(path);
   if (extension == ".vol") return detail::open_vol(path, false);
   if (extension == ".longvol") return detail::open_vol(path, true);
@@ -109,7 +111,7 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path) {
     throw UsageError("'" + path +
                      "': a raw file does not say how its values lie; give its size and type");
   }
-  if (detail::is_image(path)) return detail::open_image(path);
+  if (detail::is_image(path)) return detail::open_image(path, context);
   throw UsageError("'" + path + "': the extension '" + extension + "' is no volume format; " +
                    volume_endings() + " are read, and raw files with size and type");
 }

@@ -89,8 +89,10 @@ std::string volume_endings();
 
 /// Reads and checks the header. Nothing of the volume's size is allocated.
 /// \throws InputError naming the file, the byte and the remedy; UsageError where the extension is
-/// not one of the above.
-std::unique_ptr<VolumeSource> open_volume(const std::string& path);
+/// not one of the above; LimitError where the sizes are beyond counting or memory. A medical
+/// image's reader gets the memory that `context` leaves; where it sends nothing for ten minutes, or
+/// for the seconds that the variable DSC_IMAGE_READER_SECONDS says, it is given up.
+std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context = {});
 
 /// What a raw file does not say about itself.
 struct RawLayout {

@@ -100,6 +100,9 @@ class VoxSource final : public VolumeSource {
       file_.fail(c.at, "XYZI promises " + std::to_string(count) + " voxels in " +
                            std::to_string(c.content) + " bytes");
     }
+    if (count > grid_.voxels()) {
+      file_.fail(c.at, "XYZI promises " + std::to_string(count) + " voxels of " + grid_.text());
+    }
     std::vector<unsigned char> list(static_cast<std::size_t>(4 * count));
     file_.read(list.data(), 4 * count);
     colours_.assign(static_cast<std::size_t>(grid_.voxels()), 0);

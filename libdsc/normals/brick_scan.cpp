@@ -93,6 +93,14 @@ void brick_scan(const BinaryVolume& volume, const Ball& ball, std::span<const Su
                 const Context& context) {
   if (surfels.empty()) return;
   const Box box = box_of(surfels, ball);
+  // The bricks; those with some voxels inside, collected and joined; the surfels in order. A brick
+  // that no surfel touches is uniform, and a mixed one has at least six in or on it.
+  const auto count = static_cast<Index>(surfels.size());
+  const Index all =
+      checked_product(checked_product(box.size[0], box.size[1], "bricks"), box.size[2], "bricks");
+  context.need("normals", all * static_cast<Index>(sizeof(BrickSums) + sizeof(std::int32_t)) +
+                              4 * std::min(all, count / 6) * static_cast<Index>(sizeof(BrickBits)) +
+                              static_cast<Index>(sizeof(std::int32_t)) * count);
   const BrickVolume bricks(volume, box.low, box.size, context);
   const BallRows rows[3] = {BallRows(ball, {1, 0, 0}), BallRows(ball, {0, 1, 0}),
                             BallRows(ball, {0, 0, 1})};

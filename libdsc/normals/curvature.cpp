@@ -83,6 +83,7 @@ CurvatureField integral_invariant_curvatures(const BinaryVolume& volume,
   const std::array<HalfBall, 3> half = {half_ball(ball, 0, voxel), half_ball(ball, 1, voxel),
                                         half_ball(ball, 2, voxel)};
   context.begin("curvature", n);
+  context.need("curvature", (4 * 8 + 3 * 24 + 1) * n);
   CurvatureField field;
   field.radius = r;
   for (Eigen::VectorXd* values : {&field.mean, &field.gaussian, &field.kappa_1, &field.kappa_2}) {

@@ -6,6 +6,11 @@
 namespace dsc {
 namespace {
 
+/// The estimates, and the property that they are copied to.
+void need_normals(const DigitalSurface& surface, const Context& context) {
+  context.need("normals", 2 * 24 * surface.face_count());
+}
+
 NormalReport write(DigitalSurface& surface, const NormalField& field) {
   surface.set_normals(field.u);
   return {field.fallbacks, field.radius, field.cut_faces, 0};
@@ -24,6 +29,7 @@ NormalReport integral_invariant_normals(DigitalSurface& surface, const BinaryVol
                                         const IntegralInvariantOptions& options,
                                         const Context& context) {
   check_grid(surface, volume.grid());
+  need_normals(surface, context);
   return write(surface, integral_invariant_normals(volume, surface.surfels(), options, context));
 }
 
@@ -34,6 +40,7 @@ NormalReport integral_invariant_normals(DigitalSurface& surface, const LabelVolu
   if (surface.labels().empty() && surface.face_count() > 0) {
     throw UsageError("normals: the surface has no labels; extract it from the label volume");
   }
+  need_normals(surface, context);
   const InterfaceNormals field =
       integral_invariant_normals(volume, surface.surfels(), surface.labels(), options, context);
   NormalReport report = write(surface, field);
@@ -42,11 +49,14 @@ NormalReport integral_invariant_normals(DigitalSurface& surface, const LabelVolu
 }
 
 NormalReport trivial_normals(DigitalSurface& surface, const Context& context) {
+  // And the faces at each vertex.
+  context.need("normals", (2 * 24 + 16) * surface.face_count() + 8 * surface.vertex_count());
   return write(surface, trivial_normals(surface.flat(false), context));
 }
 
 NormalReport analytic_normals(DigitalSurface& surface, const ImplicitShape& shape,
                               const Context& context) {
+  need_normals(surface, context);
   return write(surface, analytic_normals(shape, surface.grid(), surface.surfels(), context));
 }
 

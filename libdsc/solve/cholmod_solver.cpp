@@ -121,7 +121,7 @@ Factor factorize(const SparseMatrix& A) {
 
 class CholmodSolver final : public SpdSolver {
  public:
-  CholmodSolver(SparseMatrix A, const SolverOptions& options, const Context& context)
+  CholmodSolver(SparseMatrix&& A, const SolverOptions& options, const Context& context)
       : SpdSolver(std::move(A), options) {
     openblas_set_num_threads(1);
     context.check();

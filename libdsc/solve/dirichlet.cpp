@@ -1,6 +1,7 @@
 #include "libdsc/solve/dirichlet.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <cmath>
 #include <string>
@@ -54,6 +55,8 @@ DirichletSolver::DirichletSolver(const SparseMatrix& A, std::span<const VertexId
   }
   if (free_.empty()) return;
 
+  // The matrix of the free ones and their couplings, each with room while it grows.
+  context.need("fix values", 2 * matrix_bytes(A));
   // Row numbers keep their order, so columns come out sorted.
   const auto m = static_cast<Eigen::Index>(free_.size());
   SparseMatrix reduced(m, m);
@@ -81,7 +84,7 @@ DirichletSolver::DirichletSolver(const SparseMatrix& A, std::span<const VertexId
   }
   reduced.makeCompressed();
   coupling_.makeCompressed();
-  solver_ = make_solver(factory, std::move(reduced), options, context);
+  solver_ = make_solver(factory, take(reduced), options, context);
 }
 
 Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const {
@@ -121,7 +124,8 @@ NeumannSolver::NeumannSolver(SparseMatrix A, Components components, const Solver
   if (factory || resolve(used.method, A.rows()) == SolverMethod::ldlt) {
     direct_.emplace(A, components_.lowest, used, context, factory);
   } else {  // it needs no fixed vertex, and converges faster without
-    multigrid_.emplace(std::move(A), MultigridOptions{}, context);
+    A.makeCompressed();
+    multigrid_.emplace(share(A), MultigridOptions{}, context);
   }
 }
 

@@ -1,9 +1,7 @@
 #include "libdsc/solve/inertia.h"
 
 #include "libdsc/base/error.h"
-#include "libdsc/solve/fill_order.h"
-
-#include <Eigen/SparseCholesky>
+#include "libdsc/solve/counted_ldlt.h"
 
 #include <cmath>
 #include <limits>
@@ -12,13 +10,12 @@
 
 namespace dsc {
 
-std::optional<Index> negative_eigenvalues(const SparseMatrix& A) {
+std::optional<Index> negative_eigenvalues(const SparseMatrix& A, const Context& context) {
   const Index n = A.rows();
   if (n == 0) return 0;
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, EigenFillOrder<FillOrder::nested_dissection>>
-      ldlt;
+  CountedLdlt<FillOrder::nested_dissection> ldlt;
   try {
-    ldlt.compute(A);
+    ldlt.compute(A, context);
   } catch (const std::bad_alloc&) {
     throw LimitError("inertia: the factor of " + std::to_string(n) +
                      " unknowns does not fit in memory");

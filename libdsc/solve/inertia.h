@@ -2,6 +2,7 @@
 /// How many eigenvalues of a symmetric matrix are negative, without computing any of them.
 #pragma once
 
+#include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 
 #include <optional>
@@ -15,6 +16,6 @@ namespace dsc {
 /// Nothing where the answer cannot be trusted: a pivot is lost in rounding, since A is singular or
 /// nearly so. A slightly different τ then serves. \throws LimitError where L does not fit in
 /// memory.
-std::optional<Index> negative_eigenvalues(const SparseMatrix& A);
+std::optional<Index> negative_eigenvalues(const SparseMatrix& A, const Context& context = {});
 
 }  // namespace dsc

@@ -1,9 +1,7 @@
 #include "libdsc/solve/ldlt_factor.h"
 
 #include "libdsc/base/error.h"
-#include "libdsc/solve/fill_order.h"
-
-#include <Eigen/SparseCholesky>
+#include "libdsc/solve/counted_ldlt.h"
 
 #include <limits>
 #include <new>
@@ -41,10 +39,10 @@ namespace {
 
 template <FillOrder kOrder, class Base>
 struct Factor final : Base {
-  explicit Factor(const SparseMatrix& A) {
+  Factor(const SparseMatrix& A, const Context& context) {
     const Index n = A.rows();
     try {
-      ldlt.compute(A);
+      ldlt.compute(A, context);
     } catch (const std::bad_alloc&) {
       throw LimitError("LDLT: the factor of " + std::to_string(n) +
                        " unknowns does not fit in memory; use an iterative method");
@@ -68,17 +66,17 @@ struct Factor final : Base {
   }
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const override { return ldlt.solve(b); }
 
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, EigenFillOrder<kOrder>> ldlt;
+  CountedLdlt<kOrder> ldlt;
 };
 
 }  // namespace
 
-LdltFactor::LdltFactor(const SparseMatrix& A, FillOrder order) {
+LdltFactor::LdltFactor(const SparseMatrix& A, FillOrder order, const Context& context) {
   if (A.rows() == 0) return;
   if (order == FillOrder::nested_dissection) {
-    data_ = std::make_unique<Factor<FillOrder::nested_dissection, Data>>(A);
+    data_ = std::make_unique<Factor<FillOrder::nested_dissection, Data>>(A, context);
   } else {
-    data_ = std::make_unique<Factor<FillOrder::minimum_degree, Data>>(A);
+    data_ = std::make_unique<Factor<FillOrder::minimum_degree, Data>>(A, context);
   }
 }
 LdltFactor::~LdltFactor() = default;

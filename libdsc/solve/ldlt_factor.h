@@ -3,6 +3,7 @@
 /// method solves with where values leave double's range.
 #pragma once
 
+#include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 #include "libdsc/solve/wide_vector.h"
 
@@ -22,8 +23,9 @@ class LdltFactor {
   /// Only A's lower triangle is read; n may be 0.
   /// \throws SolverError unless every pivot exceeds the rounding of its own diagonal entry,
   /// (n + 10) epsilon a_ii: A is singular, indefinite or not finite; LimitError where L does not
-  /// fit memory or 32-bit indices.
-  explicit LdltFactor(const SparseMatrix& A, FillOrder order = FillOrder::nested_dissection);
+  /// fit memory or 32-bit indices: its nonzeros are counted before it is made.
+  explicit LdltFactor(const SparseMatrix& A, FillOrder order = FillOrder::nested_dissection,
+                      const Context& context = {});
   ~LdltFactor();
   LdltFactor(LdltFactor&&) noexcept;
   LdltFactor& operator=(LdltFactor&&) noexcept;

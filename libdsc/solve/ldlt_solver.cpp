@@ -10,8 +10,9 @@ namespace {
 
 class LdltSolver final : public SpdSolver {
  public:
-  LdltSolver(SparseMatrix A, const SolverOptions& options, const Context& context)
-      : SpdSolver(std::move(A), options), factor_((context.check(), matrix())) {
+  LdltSolver(SparseMatrix&& A, const SolverOptions& options, const Context& context)
+      : SpdSolver(std::move(A), options),
+        factor_((context.check(), matrix()), FillOrder::nested_dissection, context) {
     context.check();
   }
 

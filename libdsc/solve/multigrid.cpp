@@ -2,6 +2,7 @@
 
 #include "libdsc/solve/conjugate_gradient.h"
 #include "libdsc/solve/matrix_components.h"
+#include "libdsc/solve/matrix_memory.h"
 #include "libdsc/solve/multigrid_hierarchy.h"
 
 #include <cmath>
@@ -108,9 +109,9 @@ void check_finite(const Eigen::VectorXd& v, const char* what, const Context& con
   }
 }
 
-std::shared_ptr<const SparseMatrix> compressed(SparseMatrix matrix) {
+std::shared_ptr<const SparseMatrix> compressed(SparseMatrix&& matrix) {
   matrix.makeCompressed();
-  return std::make_shared<const SparseMatrix>(std::move(matrix));
+  return share(matrix);
 }
 
 }  // namespace
@@ -144,6 +145,9 @@ MultigridSolver::MultigridSolver(std::shared_ptr<const SparseMatrix> matrix,
   data->matrix = std::move(matrix);
   const SparseMatrix& a = *data->matrix;
   data->rows = {a.rows(), a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr()};
+  // The rows' checks; per level the matrix in single precision and its way up and down; the product
+  // of the first coarse one, in double.
+  context.need("set up multigrid", 16 * a.nonZeros() + 60 * a.rows());
   check_matrix(data->rows, context);
   data->components = matrix_components(data->rows, context);
   data->hierarchy =

@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/solve/ldlt_factor.h"
 #include "libdsc/solve/ldlt_solver.h"
+#include "libdsc/solve/matrix_memory.h"
 #include "libdsc/solve/multigrid.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ void check_length(Index length, Index n, const char* what) {
 /// degenerate faces.
 class MultigridSpd final : public SpdSolver {
  public:
-  MultigridSpd(SparseMatrix A, const SolverOptions& options, const Context& context)
+  MultigridSpd(SparseMatrix&& A, const SolverOptions& options, const Context& context)
       : SpdSolver(std::move(A), options),
         context_{context.threads},  // not its monitor, which may not live as long
         multigrid_(shared_matrix(), MultigridOptions{}, context),
@@ -62,9 +63,10 @@ class MultigridSpd final : public SpdSolver {
 
 }  // namespace
 
-SpdSolver::SpdSolver(SparseMatrix A, const SolverOptions& options) : tolerance_(options.tolerance) {
+SpdSolver::SpdSolver(SparseMatrix&& A, const SolverOptions& options)
+    : tolerance_(options.tolerance) {
   A.makeCompressed();
-  matrix_ = std::make_shared<const SparseMatrix>(std::move(A));
+  matrix_ = share(A);
   if (matrix_->rows() != matrix_->cols()) {
     throw UsageError("solver: the matrix is " + std::to_string(matrix_->rows()) + " x " +
                      std::to_string(matrix_->cols()) + ", it must be square");
@@ -152,15 +154,14 @@ WideVector SpdSolver::solve_wide(const WideVector& b) const {
 std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options,
                                            const Context& context) {
   if (resolve(options.method, A.rows()) == SolverMethod::ldlt) {
-    return make_ldlt_solver(std::move(A), options, context);
+    return make_ldlt_solver(take(A), options, context);
   }
   return std::make_unique<MultigridSpd>(std::move(A), options, context);
 }
 
 std::unique_ptr<SpdSolver> make_solver(const SpdSolverFactory& factory, SparseMatrix A,
                                        const SolverOptions& options, const Context& context) {
-  return factory ? factory(std::move(A), options, context)
-                 : make_spd_solver(std::move(A), options, context);
+  return factory ? factory(take(A), options, context) : make_spd_solver(take(A), options, context);
 }
 
 }  // namespace dsc

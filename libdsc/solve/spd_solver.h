@@ -69,7 +69,8 @@ class SpdSolver {
  protected:
   /// \throws UsageError unless `A` is square and the tolerance in (0, 1); SolverError where an
   /// entry is not finite.
-  SpdSolver(SparseMatrix A, const SolverOptions& options);
+  /// What `A` holds is taken, not copied.
+  SpdSolver(SparseMatrix&& A, const SolverOptions& options);
 
   /// A correction c with A c = r, to this relative residual at least. Direct solvers ignore it.
   struct Correction {

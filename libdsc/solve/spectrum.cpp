@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/solve/inertia.h"
 #include "libdsc/solve/ldlt_factor.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <Spectra/SymEigsSolver.h>
 #include <Eigen/Eigenvalues>
@@ -96,7 +97,7 @@ class LowestPairs {
     // The constants of a connected surface have μ = 0, the next eigenvalue is of the order of
     // 1 / area.
     shift_ = -1. / mass.sum();
-    factor_.emplace(shifted(A, mass, shift_));
+    factor_.emplace(shifted(A, mass, shift_), FillOrder::nested_dissection, context);
     found_.vectors.resize(A.rows(), 0);
   }
 
@@ -109,6 +110,8 @@ class LowestPairs {
     const Index wanted = std::min(count, n - found_.vectors.cols() - 1);
     if (wanted < 1) return;
     const Index steps = std::min(n - found_.vectors.cols(), std::max<Index>(2 * wanted + 1, 24));
+    // Lanczos' vectors, and then those found with the new ones: as a basis, under A, as results.
+    context_.need("spectrum", 8 * n * (steps + 5 * (found_.vectors.cols() + wanted)));
     const InverseOp op(*factor_, root_, found_.vectors, context_);
     Spectra::SymEigsSolver<InverseOp> lanczos(const_cast<InverseOp&>(op), wanted, steps);
     Index got = 0;
@@ -128,11 +131,14 @@ class LowestPairs {
   }
 
   /// Finds all, by dense algebra.
-  void solve_dense() { append(Eigen::MatrixXd::Identity(A_.rows(), A_.rows())); }
+  void solve_dense() {
+    context_.need("spectrum", 8 * 8 * A_.rows() * A_.rows());
+    append(Eigen::MatrixXd::Identity(A_.rows(), A_.rows()));
+  }
 
   /// The number of eigenvalues below τ, or nothing where that cannot be told.
   std::optional<Index> count_below(double tau) const {
-    return negative_eigenvalues(shifted(A_, mass_, tau));
+    return negative_eigenvalues(shifted(A_, mass_, tau), context_);
   }
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& y) const {
@@ -204,8 +210,10 @@ void fix_signs(Eigen::MatrixXd& vectors) {
   }
 }
 
-Spectrum finish(const LowestPairs& pairs, Index count, double tolerance) {
+Spectrum finish(const LowestPairs& pairs, Index count, double tolerance, const Context& context) {
   Spectrum result;
+  context.need("spectrum",
+               4 * 8 * count * pairs.found().vectors.rows());  // as they are and under S
   result.values = pairs.found().values.head(count);
   const Eigen::MatrixXd y = pairs.found().vectors.leftCols(count);
   const Eigen::MatrixXd r = pairs.apply(y) - y * result.values.asDiagonal();
@@ -279,7 +287,7 @@ Spectrum lowest_of_scaled(const SparseMatrix& A, const Eigen::VectorXd& mass,
       pairs.extend(missing + kGuard);
     }
   }
-  Spectrum result = finish(pairs, options.count, options.tolerance);
+  Spectrum result = finish(pairs, options.count, options.tolerance, context);
   result.rounds = rounds;
   result.copies_recovered = recovered;
   return result;
@@ -292,6 +300,8 @@ Spectrum lowest_spectrum(const SparseMatrix& A, const Eigen::VectorXd& mass,
   check_input(A, mass, options);
   context.begin("spectrum");
   context.check();
+  // Both scaled, and A once more with its shift.
+  context.need("spectrum", 4 * matrix_bytes(A) + 40 * A.rows());
   const double a = magnitude(A.diagonal());
   const double m = magnitude(mass);
   Spectrum result = lowest_of_scaled((1. / a) * A, (1. / m) * mass, options, context);

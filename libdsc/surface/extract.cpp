@@ -39,7 +39,7 @@ class Extraction {
       : cells_(cells),
         adjacency_(adjacency),
         numbering_(cells, context),
-        builder_(cells.grid(), numbering_.vertices(), numbering_.faces(), with_labels),
+        builder_(cells.grid(), numbering_.vertices(), numbering_.faces(), with_labels, context),
         surfels_(builder_.surfels()),
         labels_(builder_.labels()),
         corners_(builder_.corners()),

@@ -12,6 +12,7 @@ LabelCells::LabelCells(const LabelVolume& volume, const Context& context) : volu
       checked_product(checked_product(words_, rows_, "label cells"), n[2] + 2, "label cells");
   check_allocation(checked_product(total, 3 * sizeof(Word), "label cells"),
                    "label surface: the cells of " + volume.grid().text());
+  context.need("compare labels", total * static_cast<Index>(3 * sizeof(Word)));
   for (auto& bits : bits_) bits.assign(static_cast<std::size_t>(total), Word{0});
 
   context.begin("compare labels", n[2] + 1);

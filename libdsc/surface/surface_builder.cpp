@@ -8,9 +8,30 @@
 
 namespace dsc {
 
-SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels) {
+namespace {
+
+/// What is filled: positions and halfedges of vertices; halfedge, surfel, corners, labels and links
+/// of faces, and junctions at half of their sides, collected and joined.
+Index filled_bytes(Index vertices, Index faces, bool with_labels) {
+  return (24 + 4) * vertices + (4 + 16 + 16 + (with_labels ? 8 : 0) + 4 * 4 + 3 * 16) * faces;
+}
+
+/// What finish() takes at most beside that: a face has two edges of two halfedges each, and per
+/// side a halfedge in a list; a vertex its id, its leader and its pointel. Where vertices are split,
+/// there are two more sets of corners, and as many vertices as umbrellas, of three corners each.
+Index linked_bytes(Index vertices, Index faces) {
+  constexpr Index kVertex = 4 + 4 + 4;
+  constexpr Index kUmbrella = kVertex + 24 + 4;
+  return kVertex * vertices + (2 * 2 * 16 + 4 * 4 + 2 * 16 + kUmbrella * 4 / 3) * faces;
+}
+
+}  // namespace
+
+SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels,
+                               const Context& context) {
   (void)checked_id(checked_product(8, faces, "surface halfedges"), "surface halfedges");
   (void)checked_id(vertices, "surface vertices");
+  context.need("extract", filled_bytes(vertices, faces, with_labels));
   surface_.grid_ = grid;
   surface_.vertex_count_ = vertices;
   if (with_labels) surface_.mesh().add_property(surface_.labels_, property::kLabels);
@@ -49,6 +70,7 @@ std::span<OpenMesh::Vec3d> SurfaceBuilder::positions() {
 DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Context& context) && {
   const Index pointels = surface_.vertex_count_;
   context.begin("link", 3);
+  context.need("link", linked_bytes(pointels, static_cast<Index>(surfels().size())));
   SurfaceCounts& counts = surface_.counts_;
   counts = topology::count_glued(corners(), pointels, opposite(), junctions_, labels(), context);
   context.advance(1);

@@ -23,8 +23,10 @@ namespace dsc {
 
 class SurfaceBuilder {
  public:
-  /// Room for `faces` faces and `vertices` pointels. \throws LimitError beyond 32-bit ids.
-  SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels = false);
+  /// Room for `faces` faces and `vertices` pointels. \throws LimitError beyond 32-bit ids or the context's
+  /// memory.
+  SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels = false,
+                 const Context& context = {});
 
   std::span<Surfel> surfels();
   std::span<LabelPair> labels();           ///< empty without labels
@@ -42,6 +44,7 @@ class SurfaceBuilder {
   /// sides that are left alone at a linel are linked where their directions allow.
   SurfaceBuilder part(const std::vector<std::uint8_t>& keep, const Context& context) &&;
 
+  /// \throws LimitError beyond the context's memory.
   DigitalSurface finish(Adjacency adjacency, Glue glue, const Context& context) &&;
 
  private:

@@ -36,7 +36,8 @@ SurfaceBuilder SurfaceBuilder::part(const std::vector<std::uint8_t>& keep,
     return f < 0 ? kNoSide : topology::side_code(f, s & 3);
   };
 
-  SurfaceBuilder result(surface_.grid(), kept_vertices, kept_faces, surface_.labels_.is_valid());
+  SurfaceBuilder result(surface_.grid(), kept_vertices, kept_faces, surface_.labels_.is_valid(),
+                        context);
   const auto new_corners = result.corners();
   const auto new_surfels = result.surfels();
   const auto old_labels = labels(), new_labels = result.labels();

@@ -71,6 +71,10 @@ template <class Cells>
 SurfelNumbering::SurfelNumbering(const Cells& cells, const Context& context)
     : words_(cells.words()) {
   const auto slices = static_cast<std::size_t>(cells.grid().size[2] + 1);
+  context.need("scan",
+               static_cast<Index>(slices) *
+                   static_cast<Index>(sizeof slices_[0] + 16 +
+                                      sizeof begins_[0] * static_cast<std::size_t>(words_ + 1)));
   slices_.resize(slices);
   begins_.assign(slices * static_cast<std::size_t>(words_ + 1), 0);
   face_base_.assign(slices + 1, 0);
@@ -90,6 +94,8 @@ SurfelNumbering::SurfelNumbering(const Cells& cells, const Context& context)
       throw LimitError(
           "surface: one slice of the volume has more faces than 32-bit ids can number");
     }
+    // How many words have cells is not known before; the next slice takes about as much as this.
+    context.need("scan", static_cast<Index>(slices_[slice].size() * sizeof(CellWord)));
     face_base_[slice + 1] = scan.faces();
     vertex_base_[slice + 1] = scan.vertices();
     context.advance(1);

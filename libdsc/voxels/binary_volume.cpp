@@ -5,18 +5,25 @@
 #include <string>
 
 namespace dsc {
-BinaryVolume::BinaryVolume(const Grid& grid) : grid_(grid) {
+
+Index BinaryVolume::bytes_for(const Grid& grid) {
   grid.check();
+  const Index slice =
+      checked_product((grid.size[0] + 2 + 63) / 64, grid.size[1] + 2, "volume slice");
+  const Index words = checked_product(slice, grid.size[2] + 2, "volume words");
+  return checked_product(words + 2 * kSlack, sizeof(Word), "volume bytes");
+}
+
+BinaryVolume::BinaryVolume(const Grid& grid) : grid_(grid) {
+  const Index bytes = bytes_for(grid);
+  check_allocation(bytes, "volume: " + grid.text());
   words_per_row_ = (grid.size[0] + 2 + 63) / 64;
   word_stride_ = grid.size[1] + 2;
-  slice_stride_ = checked_product(words_per_row_, word_stride_, "volume slice");
-  const Index words = checked_product(slice_stride_, grid.size[2] + 2, "volume words");
-  const Index bytes = checked_product(words, sizeof(Word), "volume bytes");
-  check_allocation(bytes, "volume: " + grid.text());
+  slice_stride_ = words_per_row_ * word_stride_;
   try {
-    words_.assign(static_cast<std::size_t>(words + 2 * kSlack), Word{0});
+    words_.assign(static_cast<std::size_t>(bytes) / sizeof(Word), Word{0});
   } catch (const std::exception&) {  // bad_alloc or length_error
-    throw LimitError("volume: no memory for " + std::to_string(words) + " words of 64 voxels");
+    throw LimitError("volume: no memory for the " + grid.text());
   }
 }
 

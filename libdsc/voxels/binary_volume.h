@@ -70,6 +70,8 @@ class BinaryVolume {
   /// Replaces word w of row (y, z). Precondition: the bits of the margin are 0.
   void set_word(Index w, Index y, Index z, Word value) { words_[index(w, y, z)] = value; }
 
+  /// What a volume of this grid takes. \throws as the constructor.
+  static Index bytes_for(const Grid& grid);
   /// The bytes of all words, margins and slack included.
   std::size_t memory_bytes() const { return words_.size() * sizeof(Word); }
 

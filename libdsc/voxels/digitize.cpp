@@ -74,6 +74,7 @@ Grid digitization_grid(const ImplicitShape& shape, const Vec3& spacing) {
 BinaryVolume digitize(const ImplicitShape& shape, const Vec3& spacing, const Context& context) {
   const LatticeRange range = lattice_range(shape, spacing);
   const Grid grid = digitization_grid(shape, spacing);
+  context.need("digitize", BinaryVolume::bytes_for(grid));
   BinaryVolume volume(grid);
   const Index margin = range.margin;
   const Index x_end = grid.size[0] - margin;

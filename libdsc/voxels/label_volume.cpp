@@ -21,10 +21,13 @@ std::vector<T> zeros(const Grid& grid) {
 
 }  // namespace
 
-LabelVolume::LabelVolume(const Grid& grid, int bytes) : grid_(grid) {
+Index LabelVolume::bytes_for(const Grid& grid, int bytes) {
   grid.check();
-  check_allocation(checked_product(grid.voxels(), bytes, "label volume bytes"),
-                   "label volume: " + grid.text());
+  return checked_product(grid.voxels(), bytes, "label volume bytes");
+}
+
+LabelVolume::LabelVolume(const Grid& grid, int bytes) : grid_(grid) {
+  check_allocation(bytes_for(grid, bytes), "label volume: " + grid.text());
   switch (bytes) {
     case 1:
       labels_ = zeros<std::uint8_t>(grid);

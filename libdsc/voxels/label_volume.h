@@ -61,6 +61,8 @@ class LabelVolume {
   /// The voxels that have one of the labels given.
   BinaryVolume select(std::span<const Label> labels, const Context& context = {}) const;
 
+  /// What a volume of this grid with labels of `bytes` takes. \throws as the constructor.
+  static Index bytes_for(const Grid& grid, int bytes);
   /// The bytes of all labels.
   std::size_t memory_bytes() const;
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -15,6 +16,8 @@ struct Outcome {
   int exit_code = -1;  ///< 128 + the signal's number where one ended the program
   std::string out;
   std::string err;
+  double cpu_seconds = 0;       ///< of the program and what it started
+  std::int64_t peak_bytes = 0;  ///< resident; at least what this process holds itself
 };
 
 /// Runs `dsc` with these arguments and waits for it. `in_child` is called between fork and exec;

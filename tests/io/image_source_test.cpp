@@ -172,9 +172,16 @@ TEST_F(Images, WhatIsNoVolumeIsRefused) {
     write_all(folder_ / name, bytes.replace(at, from.size(), to));
     expect_input_error([&] { (void)read_labels(folder_ / name); }, {folder_ / name, part});
   };
+  const auto expect_limit = [&](const std::string& name, std::string bytes, const std::string& to,
+                                const std::string& part) {
+    SCOPED_TRACE(to);
+    write_all(folder_ / name, bytes.replace(bytes.find("7 6 5"), 5, to));
+    expect_error<LimitError>([&] { (void)read_labels(folder_ / name); }, {folder_ / name, part});
+  };
   const std::string nrrd = nrrd_bytes(image), mha = mha_bytes(image);
   expect("v.mha", mha, "MET_SHORT", "MET_SHORT_ARRAY\nElementNumberOfChannels = 3", "");
-  expect("v.nrrd", nrrd, "7 6 5", "7000000 6000000 5000", "memory");
+  expect("v.nrrd", nrrd, "7 6 5", "7000000 6000000 5000", "truncated");
+  expect_limit("v.mha", mha, "2147483648 2147483648 2147483648", "memory");
   expect("v.mha", mha, "7 6 5", "7000000 6000000 5000", "truncated");
   expect("v.mha", compressed_mha(image), "CompressedDataSize", "Comment", "lacks");
   expect("v.mha", mha, "BinaryData = True", "BinaryData = False", "text");
@@ -230,6 +237,78 @@ TEST_F(Readers, TheirFailuresAreInputErrors) {
   expect("head -c 200 /dev/zero", "this version");
   // More on standard error than a pipe holds.
   expect("head -c 300000 /dev/zero | tr '\\0' '\\n' >&2; echo last >&2; exit 1", "last");
+}
+
+/// A limit that always has so much left.
+class Left final : public MemoryLimit {
+ public:
+  explicit Left(Index bytes) : bytes_(bytes) {}
+  void need(std::string_view, Index) const override {}
+  Index left() const override { return bytes_; }
+
+ private:
+  Index bytes_;
+};
+
+TEST_F(Readers, TheirExcessIsOutOfLimits) {
+  use("echo \"no memory for $2 bytes\" >&2; exit 4");
+  const Left limit(12345);
+  expect_error<LimitError>(
+      [&] {
+        (void)open_volume(image_, {0, nullptr, &limit});
+      },
+      {image_, "no memory for 12345 bytes"});
+}
+
+TEST_F(Readers, OneThatSendsNothingIsGivenUp) {
+  ::setenv("DSC_IMAGE_READER_SECONDS", "1", 1);
+  use("echo $$ > '" + folder_ / "pid" + "'\nexec sleep 1000");
+  expect_input_error([&] { (void)open_volume(image_); },
+                     {image_, "nothing for 1 seconds", "DSC_IMAGE_READER_SECONDS"});
+  EXPECT_NE(::kill(std::stoi(read_all(folder_ / "pid")), 0), 0) << "the reader still runs";
+  // It closes its output, but does not end.
+  use("exec sleep 1000 >&- 2>&-");
+  expect_input_error([&] { (void)open_volume(image_); }, {image_, "nothing for 1 seconds"});
+  for (const char* wrong : {"0", "-1", "1x", "nan"}) {
+    ::setenv("DSC_IMAGE_READER_SECONDS", wrong, 1);
+    EXPECT_THROW((void)open_volume(image_), UsageError) << wrong;
+  }
+  ::unsetenv("DSC_IMAGE_READER_SECONDS");
+}
+
+TEST_F(Images, TheMemoryThatIsLeftBoundsTheReader) {
+  TestImage image{{400, 400, 300}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0}, {}};
+  image.values.assign(48000000, 1);  // 96 MB in 100 KB
+  write_all(folder_ / "v.nii.gz", gzipped(nii_bytes(image)));
+  const auto count = [&](Index bytes) {
+    const Left limit(bytes);
+    return read_binary(folder_ / "v.nii.gz", {}, {0, nullptr, &limit}).count();
+  };
+  EXPECT_EQ(count(Index{400} << 20), 48000000);
+#ifndef __SANITIZE_ADDRESS__
+  expect_error<LimitError>([&] { (void)count(Index{1} << 20); }, {folder_ / "v.nii.gz", "memory"});
+#endif
+}
+
+/// Behind the values, megabytes of zeros and then damage, which nobody sees who stops in time.
+TEST_F(Images, InflationStopsAtTheDeclaredSize) {
+  const TestImage image = random_image(1);
+  const auto with_bomb = [](const std::string& bytes, auto&& pack) {
+    std::string packed = pack(bytes + std::string(64 << 20, '\0'));
+    for (std::size_t i = packed.size() / 2; i < packed.size(); ++i) packed[i] = '\xff';
+    return packed;
+  };
+  expect_image("v.nii.gz", with_bomb(nii_bytes(image), gzipped), image, 1e-6);  // of floats
+  std::string text = nrrd_bytes(image);
+  text.replace(text.find("encoding: raw"), 13, "encoding: gzip");
+  text = text.substr(0, text.find("\n\n") + 2);
+  expect_image("v.nrrd", text + with_bomb(image.value_bytes(), gzipped), image);
+  text = mha_bytes(image);
+  text.replace(text.find("CompressedData = False"), 22, "CompressedData = True");
+  const std::string packed = with_bomb(image.value_bytes(), deflated);
+  text.insert(text.find("ElementDataFile"),
+              "CompressedDataSize = " + std::to_string(packed.size()) + "\n");
+  expect_image("v.mha", text.substr(0, text.find("LOCAL\n") + 6) + packed, image);
 }
 
 TEST_F(Readers, AMissingOneSaysHowToGetIt) {

@@ -117,6 +117,18 @@ TEST(VolReader, SizesBeyondCountingOrMemoryAreOutOfLimits) {
   }
 }
 
+/// Behind the volume, megabytes of zeros and then damage, which nobody sees who stops in time.
+TEST(VolReader, InflationStopsAtTheDeclaredSize) {
+  const TemporaryFolder folder;
+  for (const auto& [name, width] : {std::pair<const char*, Index>{"v.vol", 1}, {"v.longvol", 8}}) {
+    std::string packed = deflated(some_bytes(10 * 20 * 30 * width) + std::string(64 << 20, '\0'));
+    for (std::size_t i = packed.size() / 2; i < packed.size(); ++i) packed[i] = '\xff';
+    write_all(folder / name, vol_text(10, 20, 30, 3) + packed);
+    expect_input_error([&] { (void)read_binary(folder / name); },
+                       {name, "goes on after the volume is full"});
+  }
+}
+
 TEST(VolReader, DataOfAnotherLengthIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder / "v.vol";

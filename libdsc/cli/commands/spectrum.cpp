@@ -4,6 +4,7 @@
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/stages.h"
 #include "libdsc/solve/checkerboard.h"
+#include "libdsc/solve/matrix_memory.h"
 #include "libdsc/voxels/shapes.h"
 
 namespace dsc::cli {
@@ -38,6 +39,7 @@ void run_spectrum(Run& run) {
   Spectrum spectrum;
   {
     const Stopwatch watch(run.report.timings.solve);
+    run.context.need("spectrum", matrix_bytes(system.L));
     const SpectrumOptions options{.count = run.options.count};
     if (mercat) {
       const SparseMatrix S = checkerboard_form(mesh, calculus_options(run), run.context);

@@ -63,8 +63,19 @@ T number_at(const std::vector<char>& bytes, std::size_t at, bool swap) {
   return value;
 }
 
-/// The bytes that a zlib or gzip stream inflates to, from `offset` of the file on.
-Size inflated_bytes(const std::string& path, Size offset) {
+/// `a` times what may be a negative number of a damaged header.
+Size times(Size a, std::int64_t n) {
+  Size product = 0;
+  if (n < 0) throw ImageError("the header has a negative size");
+  if (__builtin_mul_overflow(a, static_cast<Size>(n), &product)) {
+    throw ImageTooLarge("the header promises more than 64 bits can count");
+  }
+  return product;
+}
+
+/// The bytes that a zlib or gzip stream inflates to, from `offset` of the file on; some number
+/// above `enough` where there are more.
+Size inflated_bytes(const std::string& path, Size offset, Size enough) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
   z_stream stream{};
@@ -72,7 +83,7 @@ Size inflated_bytes(const std::string& path, Size offset) {
   std::vector<char> in(1 << 18), out(1 << 18);
   Size total = 0;
   int result = Z_OK;
-  while (result == Z_OK || result == Z_BUF_ERROR) {
+  while ((result == Z_OK || result == Z_BUF_ERROR) && total <= enough) {
     if (stream.avail_in == 0) {
       file.read(in.data(), static_cast<std::streamsize>(in.size()));
       stream.next_in = reinterpret_cast<Bytef*>(in.data());
@@ -85,7 +96,8 @@ Size inflated_bytes(const std::string& path, Size offset) {
     total += out.size() - stream.avail_out;
   }
   (void)inflateEnd(&stream);
-  if (result != Z_STREAM_END) throw ImageError("the compressed data is damaged or truncated");
+  if (result != Z_STREAM_END && total <= enough)
+    throw ImageError("the compressed data is damaged or truncated");
   return total;
 }
 
@@ -187,23 +199,27 @@ void check_nifti(const std::string& path) {
     const auto dims = number_at<std::int64_t>(start, 16, swap);
     promised = static_cast<Size>(number_at<std::int16_t>(start, 14, swap)) / 8;
     for (std::int64_t d = 1; d <= std::clamp<std::int64_t>(dims, 0, 7); ++d) {
-      promised *= static_cast<Size>(
-          number_at<std::int64_t>(start, static_cast<std::size_t>(16 + 8 * d), swap));
+      promised = times(promised,
+                       number_at<std::int64_t>(start, static_cast<std::size_t>(16 + 8 * d), swap));
     }
-    promised += static_cast<Size>(number_at<std::int64_t>(start, 168, swap));
+    const auto offset = number_at<std::int64_t>(start, 168, swap);
+    if (offset < 0 || __builtin_add_overflow(promised, static_cast<Size>(offset), &promised)) {
+      throw ImageError("its values begin at the impossible byte " + std::to_string(offset));
+    }
   } else {
     const int dims = number_at<std::int16_t>(start, 40, swap);
     promised = static_cast<Size>(number_at<std::int16_t>(start, 72, swap)) / 8;
     for (int d = 1; d <= std::clamp(dims, 0, 7); ++d) {
-      promised *= static_cast<Size>(std::max<std::int16_t>(
-          1, number_at<std::int16_t>(start, static_cast<std::size_t>(40 + 2 * d), swap)));
+      const auto size = number_at<std::int16_t>(start, static_cast<std::size_t>(40 + 2 * d), swap);
+      promised = times(promised, std::max<std::int16_t>(1, size));
     }
     promised += static_cast<Size>(std::max(0.F, number_at<float>(start, 108, swap)));
   }
   if (file.compressed()) {
     std::vector<char> buffer(1 << 18);
-    for (Size n = 0; (n = file.read(buffer.data(), static_cast<unsigned>(buffer.size()))) > 0;) {
-      there += n;
+    // To the end, where the checksum is; no further than promised where there is more.
+    for (Size n = 1; n > 0 && there <= promised; there += n) {
+      n = file.read(buffer.data(), static_cast<unsigned>(buffer.size()));
     }
   } else {
     there = std::filesystem::file_size(path);
@@ -235,8 +251,33 @@ void check_meta(const std::string& path, std::uint64_t bytes) {
     throw ImageError("the header lacks CompressedDataSize");  // MetaIO would read zeros
   }
   const Size size = std::filesystem::file_size(where);
-  const Size there = compressed ? inflated_bytes(where, offset) : size - std::min(size, offset);
+  const Size there =
+      compressed ? inflated_bytes(where, offset, bytes) : size - std::min(size, offset);
   if (there < bytes) truncated(bytes, there);
+}
+
+void check_nrrd(const std::string& path, std::uint64_t bytes) {
+  std::ifstream file(path, std::ios::binary);
+  std::string data, encoding;
+  const auto field = [](const std::string& line, const std::string& key) {
+    const std::size_t first = line.find_first_not_of(' ', key.size());
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    return first == std::string::npos || last < first ? std::string()
+                                                      : line.substr(first, last + 1 - first);
+  };
+  for (std::string line; std::getline(file, line) && !line.empty() && line != "\r";) {
+    for (const char* key : {"data file:", "datafile:"}) {
+      if (line.rfind(key, 0) == 0) data = field(line, key);
+    }
+    if (line.rfind("encoding:", 0) == 0) encoding = field(line, "encoding:");
+  }
+  std::filesystem::path where(path);
+  if (!data.empty()) where = where.parent_path() / data;
+  if (!std::filesystem::is_regular_file(where)) return;  // a list of files, or ITK tells
+  const Size size = std::filesystem::file_size(where);
+  // Bytes of values for one of the file: deflate shrinks by 1032 at most, bzip2 by far more.
+  const Size most = encoding == "raw" ? 1 : encoding == "gzip" || encoding == "gz" ? 1032 : 100000;
+  if (bytes / most > size) truncated(bytes, size);
 }
 
 void check_tiff(const std::string& path) {

@@ -17,6 +17,11 @@ void check_nifti(const std::string& path);
 /// not. \throws ImageError likewise, and on text and lists of files, which are not supported.
 void check_meta(const std::string& path, std::uint64_t bytes);
 
+/// NRRD with `bytes` bytes of values in all: the file, local or of its own, must be large enough for
+/// them in its encoding. ITK finds the rest, but allocates before it looks. Lists of files are not
+/// checked. \throws ImageError where it is too small.
+void check_nrrd(const std::string& path, std::uint64_t bytes);
+
 /// TIFF and BigTIFF: every directory and every strip or tile must lie in the file.
 /// \throws ImageError likewise.
 void check_tiff(const std::string& path);

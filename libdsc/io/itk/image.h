@@ -21,6 +21,12 @@ class ImageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// It is larger than memory or than what can be counted.
+class ImageTooLarge : public ImageError {
+ public:
+  using ImageError::ImageError;
+};
+
 /// Gets the next bytes of the values.
 using TakeBytes = std::function<void(const void* bytes, std::size_t count)>;
 
@@ -42,7 +48,8 @@ itk::ImageIOBase::Pointer open_image_file(const std::string& path);
 /// values a voxel, several volumes, a type that is no number.
 ImageHeader header_of(itk::ImageIOBase& io);
 
-/// The bytes of the values. \throws ImageError where they do not fit 64 bits or this machine.
+/// The bytes of the values. \throws ImageError where there are none, ImageTooLarge where they do not
+/// fit 64 bits or this machine.
 std::size_t value_bytes(const ImageHeader& header);
 
 /// All values of an open file. \throws as ITK.

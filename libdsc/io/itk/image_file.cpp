@@ -61,6 +61,9 @@ void check_complete(Format format, const std::string& path, const itk::ImageIOBa
   if (format == Format::meta) {
     check_meta(path, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
   }
+  if (format == Format::nrrd) {
+    check_nrrd(path, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
+  }
   if (format == Format::tiff) check_tiff(path);
   if (format == Format::dicom) {
     check_dicom(path, static_cast<std::uint64_t>(io.GetImageSizeInPixels()));
@@ -163,7 +166,8 @@ std::size_t value_bytes(const ImageHeader& header) {
   std::int64_t bytes = header.bytes;
   for (const std::int64_t size : header.size) {
     if (size <= 0) throw ImageError("the image is empty");
-    if (size > memory / bytes) throw ImageError("the image is larger than this machine's memory");
+    if (size > memory / bytes)
+      throw ImageTooLarge("the image is larger than this machine's memory");
     bytes *= size;
   }
   return static_cast<std::size_t>(bytes);

@@ -1,15 +1,20 @@
-// dsc-image-reader IMAGE: a medical image, by ITK, to a pipe on standard output (image_stream.h).
-// On failure one line on stderr and exit code 1.
+// dsc-image-reader IMAGE [BYTES]: a medical image, by ITK, to a pipe on standard output
+// (image_stream.h), in so much memory. On failure one line on stderr and exit code 1, or 4 where
+// the image is too large.
 #include "libdsc/io/itk/image.h"
 
 #include <itkMacro.h>
 #include <itkObject.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <string>
+#include <string_view>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -17,8 +22,11 @@
 namespace dsc::detail {
 namespace {
 
-/// A damaged file may ask for anything: this process gets no more than it can need.
-void limit_resources() {
+constexpr int kTooLarge = 4;  // the exit code that the parent knows
+
+/// A damaged file may ask for anything: this process gets no more than `bytes` of memory, beside
+/// what ITK's libraries and threads take themselves, and no more of the rest than it can need.
+void limit_resources(rlim_t bytes) {
   const auto limit = [](int resource, rlim_t most) {
     rlimit now{};
     if (::getrlimit(resource, &now) != 0) return;
@@ -26,8 +34,11 @@ void limit_resources() {
     (void)::setrlimit(resource, &now);
   };
 #ifndef __SANITIZE_ADDRESS__  // its shadow alone is 20 TB
-  limit(RLIMIT_AS, static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) *
-                       static_cast<rlim_t>(::sysconf(_SC_PAGE_SIZE)));
+  constexpr rlim_t kItself = rlim_t{64} << 20;
+  const auto physical = static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<rlim_t>(::sysconf(_SC_PAGE_SIZE));
+  limit(RLIMIT_AS, physical);
+  limit(RLIMIT_DATA, std::min(bytes, physical) + kItself);
 #endif
   limit(RLIMIT_CPU, 3600);  // seconds
   limit(RLIMIT_FSIZE, 0);   // it writes no file
@@ -54,10 +65,10 @@ void run(const std::string& path) {
   write_all(kImageEnd, sizeof kImageEnd);
 }
 
-int fail(std::string message) {
+int fail(std::string message, int code) {
   for (char& c : message) c = c == '\n' || c == '\r' ? ' ' : c;
   std::fprintf(stderr, "%s\n", message.c_str());
-  return 1;
+  return code;
 }
 
 }  // namespace
@@ -65,10 +76,15 @@ int fail(std::string message) {
 
 int main(int argc, char** argv) {
   using namespace dsc::detail;
-  if (argc != 2 || ::isatty(STDOUT_FILENO) != 0) {
-    return fail("dsc-image-reader IMAGE reads an image for dsc, to a pipe");
+  rlim_t bytes = RLIM_INFINITY;
+  const std::string_view given = argc == 3 ? argv[2] : "";
+  const bool number = std::from_chars(given.data(), given.data() + given.size(), bytes).ptr ==
+                      given.data() + given.size();
+  if (argc < 2 || argc > 3 || (argc == 3 && (given.empty() || !number)) ||
+      ::isatty(STDOUT_FILENO) != 0) {
+    return fail("dsc-image-reader IMAGE [BYTES] reads an image for dsc, to a pipe", 1);
   }
-  limit_resources();
+  limit_resources(bytes);
   itk::Object::GlobalWarningDisplayOff();
   try {
     run(argv[1]);
@@ -76,10 +92,13 @@ int main(int argc, char** argv) {
   } catch (const itk::ExceptionObject& error) {
     std::string text = error.GetDescription();  // itk::ERROR: Class(0x55…): what
     const std::size_t place = text.find("): ");
-    return fail(place == std::string::npos ? text : text.substr(place + 3));
+    return fail(place == std::string::npos ? text : text.substr(place + 3), 1);
   } catch (const std::bad_alloc&) {
-    return fail("there is no memory for it");
+    return fail("its values do not fit in the memory that is left; use a part of it, or allow more",
+                kTooLarge);
+  } catch (const ImageTooLarge& error) {
+    return fail(error.what(), kTooLarge);
   } catch (const std::exception& error) {
-    return fail(error.what());
+    return fail(error.what(), 1);
   }
 }
