@@ -72,7 +72,6 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (!exists && errno != ENOENT) fail("write", errno);
   if (exists && S_ISDIR(info.st_mode)) fail("write", EISDIR);
-  buffer_.reserve(kBuffer);
   if (exists && !S_ISREG(info.st_mode)) {
     file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail("open", errno);

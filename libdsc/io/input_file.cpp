@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace dsc {
 
@@ -33,13 +35,31 @@ InputFile::InputFile(const std::string& path) : path_(path) {
   size_ = info.st_size;
 }
 
-InputFile::~InputFile() { (void)::close(file_); }
+InputFile::InputFile(std::string name, std::string_view bytes)
+    : path_(std::move(name)), bytes_(bytes), size_(static_cast<Index>(bytes.size())) {}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      bytes_(other.bytes_),
+      size_(other.size_),
+      position_(other.position_) {}
+
+InputFile::~InputFile() {
+  if (file_ >= 0) (void)::close(file_);
+}
 
 void InputFile::fail(Index at, const std::string& why) const {
-  throw InputError("'" + path_ + "', byte " + std::to_string(at) + ": " + why);
+  throw InputError("'" + path_ + "', byte " + std::to_string(at) + ": " + detail::printable(why));
 }
 
 Index InputFile::read_some(void* to, Index bytes) {
+  if (file_ < 0) {
+    const Index count = std::clamp<Index>(remaining(), 0, bytes);
+    if (count > 0) std::memcpy(to, bytes_.data() + position_, static_cast<std::size_t>(count));
+    position_ += count;
+    return count;
+  }
   for (;;) {
     const ssize_t count = ::pread(file_, to, static_cast<std::size_t>(bytes), position_);
     if (count >= 0) {
@@ -63,4 +83,14 @@ void InputFile::read(void* to, Index bytes) {
 
 void InputFile::seek(Index position) { position_ = position; }
 
+namespace detail {
+
+std::string printable(std::string text) {
+  constexpr std::size_t kMost = 600, kStart = 400, kEnd = 190;
+  if (text.size() > kMost) text.replace(kStart, text.size() - kStart - kEnd, " ... ");
+  for (char& c : text) c = c >= ' ' && c < 127 ? c : '?';
+  return text;
+}
+
+}  // namespace detail
 }  // namespace dsc

@@ -1,11 +1,13 @@
 /// \file
 /// \internal
-/// A regular file that is read front to back, with errors that name the file and the byte.
+/// A regular file, or bytes in memory, read front to back with errors that name the file and the
+/// byte.
 #pragma once
 
 #include "libdsc/base/types.h"
 
 #include <string>
+#include <string_view>
 
 namespace dsc {
 
@@ -13,6 +15,9 @@ class InputFile {
  public:
   /// \throws InputError where `path` cannot be opened or is no regular file.
   explicit InputFile(const std::string& path);
+  /// The same over `bytes`, which must outlive it; `name` stands for the path.
+  InputFile(std::string name, std::string_view bytes);
+  InputFile(InputFile&& other) noexcept;
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
@@ -33,9 +38,17 @@ class InputFile {
 
  private:
   std::string path_;
-  int file_ = -1;
+  int file_ = -1;           ///< -1: the bytes are in memory
+  std::string_view bytes_;  ///< in memory
   Index size_ = 0;
   Index position_ = 0;
 };
 
+namespace detail {
+
+/// `text`, which may repeat what a file holds, fit for a terminal and a log: what is not printable
+/// ASCII becomes '?', and the middle of more than 600 characters is left out.
+std::string printable(std::string text);
+
+}  // namespace detail
 }  // namespace dsc

@@ -18,6 +18,9 @@ PolygonMesh read_ply(InputFile& file, const Context& context);
 PolygonMesh read_stl(InputFile& file, const Context& context);
 PolygonMesh read_om(InputFile& file, const Context& context);
 
+/// What read_mesh() does with the file of that name.
+PolygonMesh read_mesh(InputFile& file, const Context& context);
+
 /// The name and the three parts of a vector whose parts end in x, y, z, or an empty name. Parts
 /// {nx, ny, nz} are of `normal`, {gx, gy, gz} of `gradient`, {d_x, d_y, d_z} of `d`.
 std::string vector_name(std::string_view a, std::string_view b, std::string_view c);

@@ -33,31 +33,48 @@ const MeshFormat* format_of(const std::string& path) {
   return nullptr;
 }
 
+const MeshFormat& known_format_of(const std::string& path) {
+  const MeshFormat* format = format_of(path);
+  if (format == nullptr) {
+    throw UsageError("'" + path + "': the ending does not tell the format of a mesh; known are " +
+                     mesh_endings());
+  }
+  return *format;
+}
+
 std::string kind_of(const MeshField& field) {
   return field.on == FieldOn::vertex ? "vertex" : "face";
 }
 
-/// Writers take letters, digits and underscores, each name once for a kind, and no x, y, z.
+/// Writers take letters, digits and underscores, each name once for a kind, and no x, y, z. The
+/// name of a vector differs from those of the other fields too, whatever its parts are called.
 void make_names_plain(PolygonMesh& mesh) {
-  std::set<std::pair<FieldOn, std::string>> taken;
-  for (MeshField& field : mesh.fields) {
-    const auto plain = [&](std::string name) {
-      for (char& c : name) {
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-      }
-      return name.empty() ? "_" : name;
-    };
-    for (std::string& part : field.parts) {
-      std::string name = plain(part);
-      if (name == "x" || name == "y" || name == "z") name += "_";
-      while (!taken.insert({field.on, name}).second) name += "_";
-      if (name != part) {
-        mesh.remarks.push_back("the " + kind_of(field) + " property '" + part + "' is called " +
-                               name + " here");
-      }
-      part = name;
+  using Names = std::set<std::pair<FieldOn, std::string>>;
+  const auto plain = [&](const MeshField& field, const std::string& given, Names& taken) {
+    std::string name = given.empty() ? "_" : given;
+    for (char& c : name) {
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }
-    field.name = field.parts.size() == 1 ? field.parts[0] : plain(field.name);
+    if (name == "x" || name == "y" || name == "z") name += "_";
+    while (!taken.insert({field.on, name}).second) name += "_";
+    if (name != given) {
+      mesh.remarks.push_back("the " + kind_of(field) + " property '" + given + "' is called " +
+                             name + " here");
+    }
+    return name;
+  };
+  Names parts;
+  for (MeshField& field : mesh.fields) {
+    for (std::string& part : field.parts) part = plain(field, part, parts);
+  }
+  Names names;
+  for (MeshField& field : mesh.fields) {
+    if (field.parts.size() > 1) continue;
+    field.name = field.parts[0];
+    names.insert({field.on, field.name});
+  }
+  for (MeshField& field : mesh.fields) {
+    if (field.parts.size() > 1) field.name = plain(field, field.name, names);
   }
 }
 
@@ -119,21 +136,23 @@ std::string mesh_endings() {
 bool is_mesh_path(const std::string& path) { return format_of(path) != nullptr; }
 
 PolygonMesh read_mesh(const std::string& path, const Context& context) {
-  const MeshFormat* format = format_of(path);
-  if (format == nullptr) {
-    throw UsageError("'" + path + "': the ending does not tell the format of a mesh; known are " +
-                     mesh_endings());
-  }
+  (void)known_format_of(path);  // before the file is opened
   InputFile file(path);
-  context.begin("read", file.size());
-  PolygonMesh mesh = format->read(file, context);
-  leave_out_nan(mesh);
-  make_names_plain(mesh);
-  adopt_normals(mesh);
-  return mesh;
+  return detail::read_mesh(file, context);
 }
 
 namespace detail {
+
+PolygonMesh read_mesh(InputFile& file, const Context& context) {
+  const MeshFormat& format = known_format_of(file.path());
+  context.begin("read", file.size());
+  PolygonMesh mesh = format.read(file, context);
+  leave_out_nan(mesh);
+  make_names_plain(mesh);
+  adopt_normals(mesh);
+  for (std::string& remark : mesh.remarks) remark = printable(std::move(remark));
+  return mesh;
+}
 
 std::string vector_name(std::string_view a, std::string_view b, std::string_view c) {
   if (a.size() < 2 || a.size() != b.size() || a.size() != c.size()) return "";

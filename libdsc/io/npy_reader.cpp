@@ -10,6 +10,7 @@
 #include <cctype>
 #include <charconv>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dsc::detail {
@@ -121,7 +122,7 @@ class DictionaryParser {
 
 class NpySource final : public VolumeSource {
  public:
-  explicit NpySource(const std::string& path) : file_(path) {
+  explicit NpySource(InputFile file) : file_(std::move(file)) {
     unsigned char start[8];
     if (file_.size() < 10) file_.fail(file_.size(), "the file is too short for a .npy header");
     file_.read(start, 8);
@@ -203,8 +204,8 @@ class NpySource final : public VolumeSource {
 
 }  // namespace
 
-std::unique_ptr<VolumeSource> open_npy(const std::string& path) {
-  return std::make_unique<NpySource>(path);
+std::unique_ptr<VolumeSource> open_npy(InputFile file) {
+  return std::make_unique<NpySource>(std::move(file));
 }
 
 }  // namespace dsc::detail

@@ -1,8 +1,11 @@
 #include "libdsc/io/om_chunks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/io/input_file.h"
 
 #include <cstring>
+#include <set>
+#include <utility>
 
 namespace dsc::detail {
 namespace {
@@ -168,7 +171,7 @@ void check_topology(const OmBytes& file, const OmFile& om, const OmChunk& chunk)
 }  // namespace
 
 void OmBytes::fail(Index at, const std::string& why) const {
-  throw InputError("'" + path + "', byte " + std::to_string(at) + ": " + why);
+  throw InputError("'" + path + "', byte " + std::to_string(at) + ": " + printable(why));
 }
 
 OmFile find_om_chunks(const OmBytes& file) {
@@ -176,6 +179,7 @@ OmFile find_om_chunks(const OmBytes& file) {
   OmFile om;
   const int file_version = read_header(cursor, file, om);
   bool found[5] = {};
+  std::set<std::pair<OmEntity, std::string>> names;  // of custom properties
   for (;;) {
     OmChunk chunk = read_chunk(cursor, file, om, file_version);
     if (chunk.entity == OmEntity::sentinel) break;
@@ -190,6 +194,10 @@ OmFile find_om_chunks(const OmBytes& file) {
       if (which == 4) file.fail(chunk.begin, "connectivity of edges; the file is damaged");
       found[which] = true;
       if (chunk.kind == OmKind::topology) check_topology(file, om, chunk);
+    }
+    // OpenMesh would read the second into the first, whatever their types are.
+    if (chunk.kind == OmKind::custom && !names.insert({chunk.entity, chunk.name}).second) {
+      file.fail(chunk.begin, "the property '" + chunk.name + "' comes twice; the file is damaged");
     }
     om.chunks.push_back(std::move(chunk));
   }

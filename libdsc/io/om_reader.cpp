@@ -7,6 +7,7 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <sstream>
@@ -42,10 +43,16 @@ bool with_kept_type(const std::string& name, Use&& use) {
   return std::apply([&](auto... kept) { return (attempt(kept) || ...); }, KeptTypes());
 }
 
+/// OpenMesh finds properties by their names, its own among them: <vprop>, v:points and the like. A
+/// chunk of such a name, or of none, would be read into them.
+bool is_openmesh_name(const std::string& name) {
+  return name.empty() || name[0] == '<' || (name.size() > 1 && name[1] == ':');
+}
+
 bool is_kept(const OmChunk& chunk, const OmFile& om) {
   if (chunk.kind == OmKind::topology) return true;
   if (chunk.kind == OmKind::position) return chunk.entity == OmEntity::vertex;
-  if (chunk.kind != OmKind::custom) return false;
+  if (chunk.kind != OmKind::custom || is_openmesh_name(chunk.name)) return false;
   if (chunk.entity != OmEntity::vertex && chunk.entity != OmEntity::face) return false;
   const Index count = chunk.entity == OmEntity::vertex ? om.vertices : om.faces;
   bool fits = false;
@@ -54,6 +61,30 @@ bool is_kept(const OmChunk& chunk, const OmFile& om) {
     fits = chunk.end - chunk.data == count * static_cast<Index>(sizeof(T));
   });
   return fits;
+}
+
+/// OpenMesh makes vertices of positions, edges and faces of their connectivity, and trusts that
+/// they are there when it reads more about them. This is the order in which it writes them.
+int place_of(const OmChunk& chunk) {
+  if (chunk.kind == OmKind::custom) return 4;
+  if (chunk.kind == OmKind::position) return 0;
+  return chunk.entity == OmEntity::halfedge ? 1 : chunk.entity == OmEntity::vertex ? 2 : 3;
+}
+
+/// The file as OpenMesh gets it.
+std::string kept_bytes(const OmBytes& file, const OmFile& om) {
+  std::vector<OmChunk> kept;
+  for (const OmChunk& chunk : om.chunks) {
+    if (is_kept(chunk, om)) kept.push_back(chunk);
+  }
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const OmChunk& a, const OmChunk& b) { return place_of(a) < place_of(b); });
+  std::string bytes(file.bytes.substr(0, 16));
+  for (const OmChunk& chunk : kept) {
+    bytes += file.bytes.substr(static_cast<std::size_t>(chunk.begin),
+                               static_cast<std::size_t>(chunk.end - chunk.begin));
+  }
+  return bytes += file.bytes.substr(file.bytes.size() - 2);
 }
 
 std::string description(const OmChunk& chunk) {
@@ -165,21 +196,16 @@ void add_field(const SurfaceMesh& mesh, const OmChunk& chunk, const std::vector<
 PolygonMesh parse_om(const OmBytes& file) {
   const OmFile om = find_om_chunks(file);
   PolygonMesh result;
-  std::string kept(file.bytes.substr(0, 16));
   for (const OmChunk& chunk : om.chunks) {
-    if (is_kept(chunk, om)) {
-      kept += file.bytes.substr(static_cast<std::size_t>(chunk.begin),
-                                static_cast<std::size_t>(chunk.end - chunk.begin));
-    } else {
+    if (!is_kept(chunk, om)) {
       result.remarks.push_back("the " + description(chunk) + " were left out");
     }
   }
-  kept += file.bytes.substr(file.bytes.size() - 2);
 
   SurfaceMesh mesh;
   {
     const OpenMeshIo io;
-    std::istringstream stream(std::move(kept));
+    std::istringstream stream(kept_bytes(file, om));
     OpenMesh::IO::Options options;
     if (om.vertices > 0 && !OpenMesh::IO::read_mesh(mesh, stream, ".om", options)) {
       file.fail(0, "OpenMesh cannot read the file");

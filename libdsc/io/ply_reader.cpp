@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,17 @@ struct Column {
   double* data = nullptr;
   Index stride = 1;
 };
+
+/// Part k of `stride` in values that begin at `data`, which is null where there are none.
+Column column_of(double* data, std::size_t k, std::size_t stride) {
+  return {data == nullptr ? nullptr : data + k, static_cast<Index>(stride)};
+}
+
+/// A whole number, which may be beyond every integer.
+std::string shown(double number) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
 
 class PlyReader {
  public:
@@ -87,7 +99,7 @@ class PlyReader {
       field.values.resize(static_cast<std::size_t>(element.count) * parts);
       for (std::size_t k = 0; k < parts; ++k, ++i) {
         field.parts.push_back(all[i].name);
-        columns[i] = {field.values.data() + k, static_cast<Index>(parts)};
+        columns[i] = column_of(field.values.data(), k, parts);
       }
       mesh_.fields.push_back(std::move(field));  // its values stay where they are
     }
@@ -111,11 +123,12 @@ class PlyReader {
     }
   }
 
+  /// Also a bound of the number of vertices: without any property the file could promise any.
   void check_coordinates(const PlyElement& element) const {
     for (const char* axis : {"x", "y", "z"}) {
-      const auto& all = element.properties;
-      const bool found = std::any_of(
-          all.begin(), all.end(), [&](const PlyProperty& p) { return !p.count && p.name == axis; });
+      const bool found =
+          std::any_of(element.properties.begin(), element.properties.end(),
+                      [&](const PlyProperty& p) { return !p.count && p.name == axis; });
       if (!found) lines_.fail("the vertices lack x, y or z");
     }
   }
@@ -136,7 +149,7 @@ class PlyReader {
       for (std::size_t k = 0; k < 3; ++k) {
         const PlyProperty& p = element.properties[i];
         if (p.count || p.name != kAxes[k]) continue;
-        columns[i] = {mesh_.positions.data() + k, 3};
+        columns[i] = column_of(mesh_.positions.data(), k, 3);
       }
     }
     note_lists(element, "");
@@ -196,7 +209,7 @@ class PlyReader {
     for (Index i = 0; i < n; ++i) {
       const double v = values_->next(list.type);
       if (v < 0 || v >= static_cast<double>(mesh_.positions.cols())) {
-        values_->fail("corner " + std::to_string(static_cast<Index>(v)) + " is not one of the " +
+        values_->fail("corner " + shown(v) + " is not one of the " +
                       counted(mesh_.positions.cols(), "vertex", "vertices") +
                       ", which are counted from 0");
       }

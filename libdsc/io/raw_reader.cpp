@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace dsc {
 namespace detail {
@@ -12,7 +13,8 @@ namespace {
 
 class RawSource final : public VolumeSource {
  public:
-  RawSource(const std::string& path, const RawLayout& layout) : file_(path), type_(layout.type) {
+  RawSource(InputFile file, const RawLayout& layout) : file_(std::move(file)), type_(layout.type) {
+    const std::string& path = file_.path();
     grid_.size = layout.size;
     type_.swap =
         type_.bytes > 1 && layout.big_endian == (std::endian::native == std::endian::little);
@@ -49,10 +51,15 @@ class RawSource final : public VolumeSource {
 };
 
 }  // namespace
+
+std::unique_ptr<VolumeSource> open_raw(InputFile file, const RawLayout& layout) {
+  return std::make_unique<RawSource>(std::move(file), layout);
+}
+
 }  // namespace detail
 
 std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout) {
-  return std::make_unique<detail::RawSource>(path, layout);
+  return detail::open_raw(InputFile(path), layout);
 }
 
 }  // namespace dsc

@@ -4,7 +4,6 @@
 #include "libdsc/base/parallel.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -15,8 +14,8 @@ namespace {
 template <class T>
 bool is_label(T value) {
   if constexpr (std::is_floating_point_v<T>) {
-    return value >= 0 && value <= std::numeric_limits<Label>::max() &&
-           static_cast<T>(static_cast<Label>(value)) == value;
+    // The largest label is no float; the number after it is.
+    return value >= 0 && value < T{0x1p32F} && static_cast<T>(static_cast<Label>(value)) == value;
   } else {
     return std::in_range<Label>(value);
   }

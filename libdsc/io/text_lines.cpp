@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -16,15 +17,16 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' |
 
 /// A word of the file in a message: what is printable, and not too much of it.
 std::string shown(std::string_view word) {
-  std::string text;
-  for (const char c : word.substr(0, 40)) text += c >= ' ' && c < 127 ? c : '?';
-  return "'" + text + (word.size() > 40 ? "..." : "") + "'";
+  return "'" + printable(std::string(word.substr(0, 40))) + (word.size() > 40 ? "..." : "") + "'";
 }
 
 }  // namespace
 
 TextLines::TextLines(InputFile& file, std::function<void(Index)> on_read)
-    : file_(file), on_read_(std::move(on_read)), buffer_(kBlock), position_(file.position()) {}
+    : file_(file),
+      on_read_(std::move(on_read)),
+      buffer_(std::min(kBlock, static_cast<std::size_t>(file.size()) + 1)),
+      position_(file.position()) {}
 
 bool TextLines::next() {
   std::size_t seen = 0;
@@ -163,7 +165,8 @@ Index TextLines::integer(std::string_view digits, const char* what) {
 }
 
 void TextLines::fail(const std::string& why) const {
-  throw InputError("'" + file_.path() + "', line " + std::to_string(number_) + ": " + why);
+  throw InputError("'" + file_.path() + "', line " + std::to_string(number_) + ": " +
+                   printable(why));
 }
 
 }  // namespace dsc::detail

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dsc::detail {
@@ -96,7 +97,10 @@ class Header {
 /// Inflates the rest of a file, `total` bytes and not one more.
 class Inflater {
  public:
-  Inflater(InputFile& file, Index total) : file_(file), left_(total), in_(std::size_t{1} << 18) {
+  Inflater(InputFile& file, Index total)
+      : file_(file),
+        left_(total),
+        in_(static_cast<std::size_t>(std::clamp<Index>(file.remaining(), 1, Index{1} << 18))) {
     if (inflateInit(&stream_) != Z_OK) throw LimitError("zlib: no memory to inflate");
   }
   Inflater(const Inflater&) = delete;
@@ -172,7 +176,7 @@ class Inflater {
 
 class VolSource final : public VolumeSource {
  public:
-  VolSource(const std::string& path, bool longvol) : file_(path) {
+  VolSource(InputFile file, bool longvol) : file_(std::move(file)) {
     const Header header(file_);
     type_.bytes = longvol ? 8 : 1;
     type_.swap = longvol && std::endian::native == std::endian::big;
@@ -270,8 +274,8 @@ class VolSource final : public VolumeSource {
 
 }  // namespace
 
-std::unique_ptr<VolumeSource> open_vol(const std::string& path, bool longvol) {
-  return std::make_unique<VolSource>(path, longvol);
+std::unique_ptr<VolumeSource> open_vol(InputFile file, bool longvol) {
+  return std::make_unique<VolSource>(std::move(file), longvol);
 }
 
 }  // namespace dsc::detail

@@ -11,9 +11,10 @@
 
 namespace dsc::detail {
 
-std::unique_ptr<VolumeSource> open_vol(const std::string& path, bool longvol);
-std::unique_ptr<VolumeSource> open_npy(const std::string& path);
-std::unique_ptr<VolumeSource> open_vox(const std::string& path);
+std::unique_ptr<VolumeSource> open_vol(InputFile file, bool longvol);
+std::unique_ptr<VolumeSource> open_npy(InputFile file);
+std::unique_ptr<VolumeSource> open_vox(InputFile file);
+std::unique_ptr<VolumeSource> open_raw(InputFile file, const RawLayout& layout);
 
 /// Whether dsc-image-reader is to read it: by its extension, or because it is a folder.
 bool is_image(const std::string& path);

@@ -103,10 +103,10 @@ ValueType value_type(const std::string& name) {
 
 std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context) {
   const std::string extension = detail::extension_of(path);
-  if (extension == ".vol") return detail::open_vol(path, false);
-  if (extension == ".longvol") return detail::open_vol(path, true);
-  if (extension == ".npy") return detail::open_npy(path);
-  if (extension == ".vox") return detail::open_vox(path);
+  if (extension == ".vol") return detail::open_vol(InputFile(path), false);
+  if (extension == ".longvol") return detail::open_vol(InputFile(path), true);
+  if (extension == ".npy") return detail::open_npy(InputFile(path));
+  if (extension == ".vox") return detail::open_vox(InputFile(path));
   if (extension == ".raw") {
     throw UsageError("'" + path +
                      "': a raw file does not say how its values lie; give its size and type");

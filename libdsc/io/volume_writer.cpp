@@ -167,8 +167,8 @@ template <class T, class From>
 T fitting(From value, Index at, const Grid& grid, const std::string& path) {
   bool fits = std::is_same_v<T, From>;
   if constexpr (std::is_floating_point_v<From> && !std::is_floating_point_v<T>) {
-    constexpr double kBeyond = 0x1p64;  // of the largest format's values
-    fits = value >= 0 && value < std::min(kBeyond, 1. + std::numeric_limits<T>::max()) &&
+    // The largest T may be no double; the number after it is a power of two.
+    fits = value >= 0 && value < std::ldexp(1., std::numeric_limits<T>::digits) &&
            value == std::floor(value);
   } else if constexpr (!std::is_same_v<T, From>) {
     fits = std::in_range<T>(value);

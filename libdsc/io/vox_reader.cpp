@@ -3,7 +3,9 @@
 #include "libdsc/base/error.h"
 #include "libdsc/io/volume_formats.h"
 
+#include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dsc::detail {
@@ -11,7 +13,7 @@ namespace {
 
 class VoxSource final : public VolumeSource {
  public:
-  explicit VoxSource(const std::string& path) : file_(path) {
+  explicit VoxSource(InputFile file) : file_(std::move(file)) {
     if (file_.size() < 20) file_.fail(file_.size(), "the file is too short for a .vox file");
     if (name() != "VOX ") file_.fail(0, "the magic bytes 'VOX ' of a .vox file are missing");
     (void)number();  // the version: models are the same in 150 and 200
@@ -23,7 +25,7 @@ class VoxSource final : public VolumeSource {
                               " follow; the file is truncated or too long");
     }
     while (file_.remaining() > 0) read_chunk();
-    if (models_ == 1 && colours_.empty()) file_.fail(file_.size(), "the chunk XYZI is missing");
+    if (models_ == 1 && !has_voxels_) file_.fail(file_.size(), "the chunk XYZI is missing");
     if (models_ != 1) {
       file_.fail(0, "there are " + std::to_string(models_) +
                         " models in the file; one is read: save each to a file of its own");
@@ -35,9 +37,18 @@ class VoxSource final : public VolumeSource {
   bool x_fastest() const override { return true; }
 
   void read(const std::function<void(const Slab&)>& take, const Context& context) override {
-    context.check();
-    take(Slab{0, grid_.size[2], std::span<const std::uint8_t>(colours_)});
-    context.advance(grid_.size[2]);
+    const Index per_slice = grid_.size[0] * grid_.size[1];
+    std::vector<std::uint8_t> colours;
+    auto next = voxels_.begin();
+    for (Index z = 0; z < grid_.size[2]; ++z) {
+      context.check();
+      colours.assign(static_cast<std::size_t>(per_slice), 0);
+      for (; next != voxels_.end() && next->place < (z + 1) * per_slice; ++next) {
+        colours[static_cast<std::size_t>(next->place - z * per_slice)] = next->colour;
+      }
+      take(Slab{z, z + 1, std::span<const std::uint8_t>(colours)});
+      context.advance(1);
+    }
   }
 
  private:
@@ -94,7 +105,7 @@ class VoxSource final : public VolumeSource {
   void read_voxels(const Chunk& c) {
     if (models_ > 1) return;
     if (models_ == 0) file_.fail(c.at, "the chunk XYZI comes before any SIZE");
-    if (!colours_.empty()) file_.fail(c.at, "a second chunk XYZI for one SIZE");
+    if (has_voxels_) file_.fail(c.at, "a second chunk XYZI for one SIZE");
     const Index count = number();
     if (c.content != 4 + 4 * count) {
       file_.fail(c.at, "XYZI promises " + std::to_string(count) + " voxels in " +
@@ -103,31 +114,45 @@ class VoxSource final : public VolumeSource {
     if (count > grid_.voxels()) {
       file_.fail(c.at, "XYZI promises " + std::to_string(count) + " voxels of " + grid_.text());
     }
+    if (4 * count > file_.remaining()) file_.fail(c.at, "XYZI goes on after the end of the file");
+    has_voxels_ = true;
     std::vector<unsigned char> list(static_cast<std::size_t>(4 * count));
     file_.read(list.data(), 4 * count);
-    colours_.assign(static_cast<std::size_t>(grid_.voxels()), 0);
     for (Index i = 0; i < count; ++i) {
       const unsigned char* v = &list[static_cast<std::size_t>(4 * i)];
       const Index at = c.at + 16 + 4 * i;
       if (!grid_.contains(v[0], v[1], v[2])) file_.fail(at, "a voxel outside of SIZE");
       if (v[3] == 0) file_.fail(at, "a voxel of colour 0, which stands for none");
-      auto& colour =
-          colours_[static_cast<std::size_t>(v[0] + grid_.size[0] * (v[1] + grid_.size[1] * v[2]))];
-      if (colour != 0) file_.fail(at, "a voxel that was there before");
-      colour = v[3];
+      voxels_.push_back({v[0] + grid_.size[0] * (v[1] + grid_.size[1] * v[2]), at, v[3]});
     }
+    std::sort(voxels_.begin(), voxels_.end(), [](const Voxel& a, const Voxel& b) {
+      return a.place != b.place ? a.place < b.place : a.at < b.at;
+    });
+    const auto twice =
+        std::adjacent_find(voxels_.begin(), voxels_.end(),
+                           [](const Voxel& a, const Voxel& b) { return a.place == b.place; });
+    if (twice != voxels_.end()) file_.fail(std::next(twice)->at, "a voxel that was there before");
   }
+
+  /// One that is there; they are kept in the order of the grid, whose size may be far beyond
+  /// theirs.
+  struct Voxel {
+    Index place = 0;  ///< x + X (y + Y z)
+    Index at = 0;     ///< byte of the file
+    std::uint8_t colour = 0;
+  };
 
   InputFile file_;
   Grid grid_;
   Index models_ = 0;
-  std::vector<std::uint8_t> colours_;
+  std::vector<Voxel> voxels_;
+  bool has_voxels_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<VolumeSource> open_vox(const std::string& path) {
-  return std::make_unique<VoxSource>(path);
+std::unique_ptr<VolumeSource> open_vox(InputFile file) {
+  return std::make_unique<VoxSource>(std::move(file));
 }
 
 }  // namespace dsc::detail

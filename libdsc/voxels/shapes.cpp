@@ -75,7 +75,8 @@ std::optional<Vec3> Sphere::closest_point_in_closed_form(const Vec3& p) const {
 
 // Plane.
 
-Plane::Plane(const Vec3& normal, double d, double size) : n_(normal), d_(d), size_(size) {
+Plane::Plane(const Vec3& normal, double d, double size)
+    : given_(normal), n_(normal), d_(d), size_(size) {
   check_coordinate("plane", "nx", normal.x());
   check_coordinate("plane", "ny", normal.y());
   check_coordinate("plane", "nz", normal.z());
@@ -99,8 +100,8 @@ Eigen::AlignedBox3d Plane::bounds() const {
 }
 
 std::string Plane::name() const {
-  return "plane,nx=" + text_of(n_.x()) + ",ny=" + text_of(n_.y()) + ",nz=" + text_of(n_.z()) +
-         ",d=" + text_of(d_) + ",size=" + text_of(size_);
+  return "plane,nx=" + text_of(given_.x()) + ",ny=" + text_of(given_.y()) +
+         ",nz=" + text_of(given_.z()) + ",d=" + text_of(d_) + ",size=" + text_of(size_);
 }
 
 void Plane::values_along_x(double step, Index first, int count, double y, double z,

@@ -66,6 +66,7 @@ class Plane final : public ImplicitShape {
   std::optional<Vec3> closest_point_in_closed_form(const Vec3& p) const override;
 
  private:
+  Vec3 given_;  ///< the normal as it was given: a unit vector divided by its length may change bits
   Vec3 n_;
   double d_;
   double size_;
