@@ -17,7 +17,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdsc-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libopenmesh-dev")
 if(_dsc_type STREQUAL "STATIC_LIBRARY")
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    ", zlib1g-dev, libmetis-dev, libmuparser-dev, libfmt-dev, libtbb-dev")
+    ", zlib1g-dev, libexpat1-dev, libmetis-dev, libmuparser-dev, libfmt-dev, libtbb-dev")
 else()
   list(APPEND CPACK_COMPONENTS_ALL library)
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdsc)

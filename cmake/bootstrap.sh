@@ -25,7 +25,7 @@ usage() {
 say() { printf '== %s\n' "$*"; }
 
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
-library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
+library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libexpat1-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
 image_packages=(libinsighttoolkit5-dev)
 benchmark_packages=(libbenchmark-dev)
@@ -52,7 +52,7 @@ missing_packages() {
 install_missing() {
   if ! command -v apt-get >/dev/null; then
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
-    printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
+    printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'Expat' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json'
     [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5'
     [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'

@@ -3,7 +3,9 @@
 #include "libdsc/base/error.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/results.h"
+#include "libdsc/io/standard_stream.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -46,11 +48,26 @@ void check_spares_input(const std::string& path, const std::string& input) {
 
 }  // namespace
 
+bool to_standard_output(const Options& o) {
+  return std::any_of(o.outputs.begin(), o.outputs.end(), detail::is_standard_stream);
+}
+
 void check_files(const Options& o) {
+  for (const std::string& path : o.outputs) {
+    if (path == "-") throw UsageError("-o -: standard output needs a format, as in -o ply:-");
+  }
+  if (o.input == "-") throw UsageError("-: standard input needs a format, as in vol:- or ply:-");
   std::vector<std::string> files = o.outputs;
   if (!o.report.empty()) files.push_back(o.report);
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (is_stream(files[i])) continue;
+    if (detail::is_standard_stream(files[i])) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (!detail::is_standard_stream(files[j])) continue;
+        throw UsageError("'" + files[i] + "' and '" + files[j] + "' are both standard output");
+      }
+      continue;
+    }
     if (o.input.rfind("shape:", 0) != 0) check_spares_input(files[i], o.input);
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_file(files[i], files[j])) continue;

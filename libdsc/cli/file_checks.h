@@ -12,4 +12,7 @@ namespace dsc::cli {
 /// folder, or is named twice; OutputError as check_writable() does.
 void check_files(const Options& options);
 
+/// Whether a result goes to standard output, which then has nothing else.
+bool to_standard_output(const Options& options);
+
 }  // namespace dsc::cli

@@ -1,6 +1,7 @@
 // The program `dsc`: voxels in; surfaces, normals, gradients, heat and distances out.
 #include "libdsc/base/error.h"
 #include "libdsc/cli/commands/commands.h"
+#include "libdsc/cli/file_checks.h"
 #include "libdsc/cli/interruption.h"
 #include "libdsc/cli/options.h"
 #include "libdsc/cli/progress.h"
@@ -61,7 +62,14 @@ void run_and_report(const Options& options, ProgressBar& bar) {
   bar.clear();
   run.report.peak_memory_bytes = peak_memory_bytes();
   if (!options.report.empty()) write_report(options.report, options, run.report);
-  if (!options.quiet) print(summary(run.report));
+  if (!options.quiet) {
+    const std::string text = summary(run.report);
+    if (to_standard_output(options)) {
+      std::fputs(text.c_str(), stderr);
+    } else {
+      print(text);
+    }
+  }
   for (const std::string& warning : run.report.warnings) {
     std::fprintf(stderr, "dsc: warning: %s\n", warning.c_str());
   }

@@ -71,7 +71,8 @@ void check_options(const Options& o) {
   if (o.raw && (o.raw->size[0] == 0 || !o.raw_type)) {
     throw UsageError("a raw file needs --size X,Y,Z and --type u8 or another");
   }
-  if (!shape && !o.raw && std::filesystem::path(o.input).extension() == ".raw") {
+  if (!shape && !o.raw &&
+      (std::filesystem::path(o.input).extension() == ".raw" || o.input == "raw:-")) {
     throw UsageError("'" + o.input + "': a raw file needs --size X,Y,Z and --type u8 or another");
   }
   if (!shape && o.estimator == Estimator::analytic) {

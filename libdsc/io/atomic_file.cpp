@@ -1,6 +1,7 @@
 #include "libdsc/io/atomic_file.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/io/standard_stream.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -68,6 +69,11 @@ void AtomicFile::fail(const char* action, int error) const {
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   namespace fs = std::filesystem;
   if (path.empty()) fail("write", ENOENT);
+  if (detail::is_standard_stream(path)) {
+    file_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (file_ < 0) fail("write", errno);
+    return;
+  }
   struct stat info {};
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (!exists && errno != ENOENT) fail("write", errno);
@@ -163,6 +169,7 @@ void AtomicFile::commit() {
 
 void check_writable(const std::string& path) {
   namespace fs = std::filesystem;
+  if (detail::is_standard_stream(path)) return;
   const auto refuse = [&](const std::string& why) { throw OutputError("'" + path + "'" + why); };
   const auto reason = [] { return ": " + std::system_category().message(errno); };
   std::error_code error;

@@ -3,7 +3,8 @@
 ///
 /// Bytes go to a temporary beside the target; commit() flushes it to the disk and renames it over
 /// the target. Without a commit the target stays as it was and the temporary is removed. A target
-/// that is no regular file (/dev/stdout, a pipe) is written directly. A symbolic link is followed;
+/// that is no regular file (/dev/stdout, a pipe) is written directly, and so is standard output under the
+/// name `FORMAT:-` (`ply:-`). A symbolic link is followed;
 /// an existing file keeps its permissions and is refused where it is not writable.
 #pragma once
 

@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/io/child_process.h"
 #include "libdsc/io/image_stream.h"
+#include "libdsc/io/standard_stream.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
@@ -153,6 +154,9 @@ bool is_image(const std::string& path) {
 }
 
 std::unique_ptr<VolumeSource> open_image(const std::string& path, const Context& context) {
+  if (is_standard_stream(path)) {
+    throw UsageError("'" + path + "': images are read from files, not from standard input");
+  }
   if (!fs::exists(path)) throw InputError("cannot read '" + path + "': it does not exist");
   return std::make_unique<ImageSource>(path, context);
 }

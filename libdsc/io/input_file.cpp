@@ -1,6 +1,7 @@
 #include "libdsc/io/input_file.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/io/standard_stream.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,7 +15,31 @@
 
 namespace dsc {
 
+namespace {
+
+std::string all_of_standard_input() {
+  std::string bytes;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t count = ::read(STDIN_FILENO, buffer, sizeof buffer);
+    if (count == 0) return bytes;
+    if (count > 0) {
+      bytes.append(buffer, static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      throw InputError("cannot read standard input: " + std::system_category().message(errno));
+    }
+  }
+}
+
+}  // namespace
+
 InputFile::InputFile(const std::string& path) : path_(path) {
+  if (detail::is_standard_stream(path)) {
+    owned_ = std::make_shared<const std::string>(all_of_standard_input());
+    bytes_ = *owned_;
+    size_ = static_cast<Index>(bytes_.size());
+    return;
+  }
   const auto refuse = [&](int error) {
     throw InputError("cannot read '" + path + "': " + std::system_category().message(error));
   };
@@ -29,8 +54,9 @@ InputFile::InputFile(const std::string& path) : path_(path) {
   }
   if (!S_ISREG(info.st_mode)) {
     (void)::close(file_);
-    throw InputError("cannot read '" + path +
-                     "': it is no regular file; save a pipe's data to a file first");
+    throw InputError(
+        "cannot read '" + path +
+        "': it is no regular file; read a pipe's data from standard input, by the name FORMAT:-");
   }
   size_ = info.st_size;
 }
@@ -41,6 +67,7 @@ InputFile::InputFile(std::string name, std::string_view bytes)
 InputFile::InputFile(InputFile&& other) noexcept
     : path_(std::move(other.path_)),
       file_(std::exchange(other.file_, -1)),
+      owned_(std::move(other.owned_)),
       bytes_(other.bytes_),
       size_(other.size_),
       position_(other.position_) {}

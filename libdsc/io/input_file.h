@@ -6,6 +6,7 @@
 
 #include "libdsc/base/types.h"
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@ namespace dsc {
 
 class InputFile {
  public:
+  /// Of `FORMAT:-` (standard_stream.h) all of standard input is read into memory at once.
   /// \throws InputError where `path` cannot be opened or is no regular file.
   explicit InputFile(const std::string& path);
   /// The same over `bytes`, which must outlive it; `name` stands for the path.
@@ -39,7 +41,8 @@ class InputFile {
  private:
   std::string path_;
   int file_ = -1;           ///< -1: the bytes are in memory
-  std::string_view bytes_;  ///< in memory
+  std::shared_ptr<const std::string> owned_;  ///< of standard input
+  std::string_view bytes_;                    ///< in memory
   Index size_ = 0;
   Index position_ = 0;
 };

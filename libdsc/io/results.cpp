@@ -3,6 +3,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/result_writers.h"
+#include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -32,9 +33,7 @@ constexpr std::array<Ending, 7> kEndings{{{".ply", Format::ply},
                                           {".om", Format::om}}};
 
 Format format_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = detail::extension_of(path);
   for (const Ending& known : kEndings) {
     if (ending == known.text) return known.format;
   }

@@ -24,6 +24,7 @@
 /// out, and write_result() returns their names, as it does where a form holds the mesh only.
 /// Without any field the rows are the vertices.
 ///
+/// The path `ply:-`, `csv:-` and so on is standard output.
 /// Files are written beside their target, flushed and renamed: a failure leaves what was there.
 #pragma once
 

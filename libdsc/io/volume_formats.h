@@ -14,6 +14,7 @@ namespace dsc::detail {
 std::unique_ptr<VolumeSource> open_vol(InputFile file, bool longvol);
 std::unique_ptr<VolumeSource> open_npy(InputFile file);
 std::unique_ptr<VolumeSource> open_vox(InputFile file);
+std::unique_ptr<VolumeSource> open_vti(InputFile file);
 std::unique_ptr<VolumeSource> open_raw(InputFile file, const RawLayout& layout);
 
 /// Whether dsc-image-reader is to read it: by its extension, or because it is a folder.
@@ -27,7 +28,7 @@ using ByteReader = std::function<void(void* to, Index bytes)>;
 void stream_slabs(Index slices, Index per_slice, const ValueType& type, const ByteReader& next,
                   const std::function<void(const Slab&)>& take, const Context& context);
 
-/// The lower-case extension with its dot.
+/// The lower-case extension with its dot; `.vol` of vol:- (standard_stream.h).
 std::string extension_of(const std::string& path);
 
 }  // namespace dsc::detail

@@ -2,6 +2,7 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
+#include "libdsc/io/standard_stream.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
@@ -71,7 +72,9 @@ void stream_slabs(Index slices, Index per_slice, const ValueType& type, const By
 }
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+  std::string extension = is_standard_stream(path)
+                              ? "." + path.substr(0, path.size() - 2)
+                              : std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
@@ -81,7 +84,8 @@ std::string extension_of(const std::string& path) {
 }  // namespace detail
 
 std::string volume_endings() {
-  return ".vol, .longvol, .npy, .vox, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, .tif, .tiff, a "
+  return ".vol, .longvol, .npy, .vox, .vti, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, .tif, .tiff, "
+         "a "
          "folder of TIFF or DICOM slices";
 }
 
@@ -107,6 +111,7 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context
   if (extension == ".longvol") return detail::open_vol(InputFile(path), true);
   if (extension == ".npy") return detail::open_npy(InputFile(path));
   if (extension == ".vox") return detail::open_vox(InputFile(path));
+  if (extension == ".vti") return detail::open_vti(InputFile(path));
   if (extension == ".raw") {
     throw UsageError("'" + path +
                      "': a raw file does not say how its values lie; give its size and type");

@@ -13,12 +13,17 @@
 ///   1.
 /// - `.vox` (MagicaVoxel): one model; the values are the colours' numbers, 1 to 255, and 0 where
 ///   there is no voxel; z is up. Spacing 1.
+/// - `.vti` (VTK's ImageData): the points, or else the cells, of one piece, as integers or floats of
+///   any size, as text, base64 or raw, zlib or not, either byte order. The array is the one that the
+///   attribute Scalars names, or the only one with one component. Spacing and place in the world as
+///   the file has them.
 /// - `.nii`, `.nii.gz`, `.nrrd`, `.nhdr`, `.mha`, `.mhd`, `.tif`, `.tiff` (pages are slices), a
 ///   folder of TIFF slices (in the natural order of their names) or of one DICOM series: by ITK, in
 ///   a process of its own, the program dsc-image-reader (option DSC_WITH_ITK). Spacing in
 ///   millimetres and place in the world as the file has them: the world is LPS, x to the patient's
 ///   left, y to the back, z to the head, in millimetres, whatever the file's own convention (NIfTI
 ///   counts x and y the other way). TIFF knows of neither: spacing 1.
+/// - but for images, each of them from standard input, as the path `vol:-`, `npy:-` and so on.
 /// - anything, by open_raw_volume(): the values alone, x fastest, then y, then z. Spacing 1.
 ///
 /// The origin is 0: voxel (i, j, k) is centred on spacing * (i, j, k), which is also its place in

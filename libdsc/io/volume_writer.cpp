@@ -1,6 +1,7 @@
 #include "libdsc/io/volume_writer.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/base/parallel.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/volume_formats.h"
 
@@ -18,15 +19,16 @@
 namespace dsc {
 namespace {
 
-enum class Format { kVol, kLongvol, kNpy };
+enum class Format { kVol, kLongvol, kNpy, kVti };
 
 Format format_of(const std::string& path) {
   const std::string extension = detail::extension_of(path);
   if (extension == ".vol") return Format::kVol;
   if (extension == ".longvol") return Format::kLongvol;
   if (extension == ".npy") return Format::kNpy;
+  if (extension == ".vti") return Format::kVti;
   throw UsageError("'" + path + "': the extension '" + extension +
-                   "' is no volume format; .vol, .longvol and .npy are written");
+                   "' is no volume format; .vol, .longvol, .npy and .vti are written");
 }
 
 std::string number(double value) {
@@ -71,6 +73,40 @@ std::string npy_header(const Grid& grid, const std::string& descr) {
                              static_cast<char>(length & 255),
                              static_cast<char>(length >> 8)};
   return start + text;
+}
+
+/// The XML before the values, which are appended raw; voxels are the points of the image.
+std::string vti_header(const Grid& grid, const RigidMap& world, const std::string& type,
+                       bool compress) {
+  const auto numbers = [](const auto& v) {
+    std::string text;
+    for (Index i = 0; i < v.size(); ++i) text += (i > 0 ? " " : "") + number(v(i));
+    return text;
+  };
+  std::string extent;
+  for (const Index size : grid.size) {
+    extent += (extent.empty() ? "0 " : " 0 ") + std::to_string(size - 1);
+  }
+  const Mat3 rows = world.rotation.transpose();  // Eigen counts down the columns
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+  if (compress) text += " compressor=\"vtkZLibDataCompressor\"";
+  text += ">\n<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + numbers(world(grid.origin)) +
+          "\" Spacing=\"" + numbers(grid.spacing) + "\"";
+  if (!world.rotation.isIdentity(0)) text += " Direction=\"" + numbers(rows.reshaped()) + "\"";
+  return text + ">\n<Piece Extent=\"" + extent +
+         "\">\n<PointData Scalars=\"values\">\n<DataArray type=\"" + type +
+         "\" Name=\"values\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n"
+         "</ImageData>\n<AppendedData encoding=\"raw\">\n_";
+}
+
+template <class T>
+std::string vti_type() {
+  return std::string(std::is_floating_point_v<T> ? "Float"
+                     : std::is_signed_v<T>       ? "Int"
+                                                 : "UInt") +
+         std::to_string(8 * sizeof(T));
 }
 
 /// Bytes to a file, through zlib or not.
@@ -142,6 +178,52 @@ void write_slices(const std::string& path, const Grid& grid, const std::string& 
   file.commit();
 }
 
+/// A .vti file: a block of values a slice, compressed in parallel where that is wanted. The sizes
+/// of all blocks come before the first, so compressed ones wait in memory.
+template <class T, class Fill>
+void write_vti(const std::string& path, const Grid& grid, const VolumeWriteOptions& options,
+               const Fill& fill, const Context& context) {
+  AtomicFile file(path);
+  file.write(vti_header(grid, options.world, vti_type<T>(), options.compress));
+  const Index slice = checked_product(grid.size[0], grid.size[1], "voxels of a slice");
+  const auto bytes =
+      static_cast<std::uint64_t>(checked_product(slice, sizeof(T), "bytes of a slice"));
+  const auto slices = static_cast<std::uint64_t>(grid.size[2]);
+  const auto word = [&](std::uint64_t value) { file.write(&value, sizeof value); };
+  context.begin("write", grid.size[2]);
+  if (options.compress) {
+    std::vector<std::vector<Bytef>> blocks(slices);
+    parallel_for(context, grid.size[2], 1, [&](Index z, Index) {
+      std::vector<T> values(static_cast<std::size_t>(slice));
+      fill(z, values.data());
+      std::vector<Bytef>& block = blocks[static_cast<std::size_t>(z)];
+      uLongf size = compressBound(bytes);
+      block.resize(size);
+      if (compress(block.data(), &size, reinterpret_cast<const Bytef*>(values.data()), bytes) !=
+          Z_OK) {
+        throw LimitError("'" + path + "': zlib has no memory to compress");
+      }
+      block.resize(size);
+      block.shrink_to_fit();
+      context.advance(1);
+    });
+    for (const std::uint64_t value : {slices, bytes, std::uint64_t{0}}) word(value);
+    for (const auto& block : blocks) word(block.size());
+    for (const auto& block : blocks) file.write(block.data(), block.size());
+  } else {
+    word(slices * bytes);
+    std::vector<T> values(static_cast<std::size_t>(slice));
+    for (Index z = 0; z < grid.size[2]; ++z) {
+      context.check();
+      fill(z, values.data());
+      file.write(values.data(), bytes);
+      context.advance(1);
+    }
+  }
+  file.write("\n</AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
 void check_grid(const Grid& grid, const std::string& path) {
   for (const Index size : grid.size) {
     if (size <= 0) throw InputError("'" + path + "': an empty volume cannot be written");
@@ -186,7 +268,8 @@ T fitting(From value, Index at, const Grid& grid, const std::string& path) {
 
 template <class From>
 void write_typed(const std::string& path, const Grid& grid, std::span<const From> values,
-                 bool compress, const Context& context) {
+                 const VolumeWriteOptions& options, const Context& context) {
+  const bool compress = options.compress;
   const Index slice = grid.size[0] * grid.size[1];
   const auto convert = [&](Index z, auto* to) {
     using T = std::remove_pointer_t<decltype(to)>;
@@ -205,6 +288,8 @@ void write_typed(const std::string& path, const Grid& grid, std::span<const From
     case Format::kNpy:
       return write_slices<From>(path, grid, npy_header(grid, descr_of<From>()), false, convert,
                                 context);
+    case Format::kVti:
+      return write_vti<From>(path, grid, options, convert, context);
   }
 }
 
@@ -229,6 +314,8 @@ void write_volume(const std::string& path, const BinaryVolume& volume,
                                          options.compress, fill, context);
     case Format::kNpy:
       return write_slices<std::uint8_t>(path, grid, npy_header(grid, "|b1"), false, fill, context);
+    case Format::kVti:
+      return write_vti<std::uint8_t>(path, grid, options, fill, context);
   }
 }
 
@@ -243,7 +330,7 @@ void write_volume(const std::string& path, const Grid& grid, const VoxelValues& 
                            " values were given for a grid of " + std::to_string(grid.voxels()) +
                            " voxels");
         }
-        write_typed(path, grid, span, options.compress, context);
+        write_typed(path, grid, span, options, context);
       },
       values);
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// What a shell command prints; nothing where it fails.
 std::string printed(const std::string& command) {
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::FILE* pipe = ::popen(("( " + command + " ) 2>&1").c_str(), "r");
   std::string text;
   char buffer[4096];
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
@@ -112,6 +112,42 @@ TEST(Manners, DgtalsNamesOfOptionsAreKnown) {
         {"info", "a.vol", "-m", "2", "-M", "1"},
         {"info", "a.vol", "-m", "2", "--threshold", "1,2"}}) {
     EXPECT_EQ(run_dsc(words).exit_code, 2);
+  }
+}
+
+TEST(Manners, StandardInputAndOutputHaveAFormat) {
+  const Folder folder;
+  const std::string program = DSC_PROGRAM;
+  // .npy in, .ply out, the same bytes as through files.
+  const std::string npy =
+      std::string("\x93NUMPY\1\0\x46\0", 10) +
+      "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 1, 2), }       \n" + "\1\2";
+  write_file(folder / "v.npy", npy);
+  EXPECT_EQ(run_dsc({"surface", folder / "v.npy", "-o", folder / "v.ply", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(printed(program + " surface npy:- -o ply:- --report " + (folder / "r.json") + " 2>" +
+                    (folder / "err") + " <" + (folder / "v.npy") + " >" + (folder / "w.ply")),
+            "");
+  EXPECT_EQ(read_file(folder / "w.ply"), read_file(folder / "v.ply"));
+  EXPECT_NE(read_file(folder / "err").find("faces"), std::string::npos);  // the summary
+  EXPECT_EQ(read_json(folder / "r.json")["surface"]["faces"], 10);
+  // A mesh and raw voxels, through a pipe.
+  EXPECT_NE(printed("cat " + (folder / "v.ply") + " | " + program + " info ply:-").find("10 faces"),
+            std::string::npos);
+  EXPECT_NE(
+      printed("printf abc | " + program + " info raw:- --size 3,1,1 --type u8").find("14 faces"),
+      std::string::npos);
+  // What is cut short is refused, as it is in a file.
+  EXPECT_NE(
+      printed("head -c 80 " + (folder / "v.npy") + " | " + program + " info npy:-").find("npy:-"),
+      std::string::npos);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", "-"},
+        {"surface", "v.npy", "-o", "-"},
+        {"surface", folder / "v.npy", "-o", "ply:-", "-o", "csv:-"}}) {
+    const Outcome outcome = run_dsc(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("standard"), std::string::npos) << outcome.err;
   }
 }
 
