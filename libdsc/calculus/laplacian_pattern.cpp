@@ -84,7 +84,11 @@ void LaplacianPattern::find_incident(const FlatMesh& mesh, const Context& contex
     incident_begin_[v] = sum;
     sum += count;
   }
-  incident_.resize(mesh.corners.size());
+  // The first touch of memory is slow, so that each array gets a thread.
+  parallel_for(context, 2, 1, [&](Index array, Index) {
+    if (array == 0) incident_.resize(mesh.corners.size());
+    if (array == 1 && digital_) surfel_slots_.resize(mesh.corners.size());
+  });
   if (!mesh.offsets.empty()) incident_face_.resize(mesh.corners.size());
   blocks.run(context, [&](VertexId v0, VertexId v1, Index f0, Index f1) {
     for (Index f = f0; f < f1; ++f) {
@@ -123,9 +127,7 @@ void LaplacianPattern::find_surfel_column(const FlatMesh& mesh, Index v, SmallRa
 
 void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context) {
   const Index V = mesh.vertices();
-  if (digital_) {
-    surfel_slots_.resize(incident_.size());
-  } else {
+  if (!digital_) {
     polygon_slots_.resize(static_cast<std::size_t>(pairs_before(faces_)));
   }
   std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kGrain - 1) / kGrain));

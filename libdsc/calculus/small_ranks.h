@@ -14,15 +14,14 @@
 namespace dsc {
 
 /// Sorts up to kMost numbers, equal ones once, and tells where each one went. Every number is
-/// compared with every other, which vector instructions do four or eight at a time: for a dozen
-/// numbers in no special order that is several times faster than an insertion whose every step is a
-/// guess.
+/// compared with every other, several at a time by vector instructions: for a dozen numbers in no
+/// special order that is faster than an insertion, which the processor guesses wrong at every step.
 class SmallRanks {
  public:
   static constexpr std::size_t kMost = 32;
 
   void clear() { count_ = 0; }
-  /// At most kMost times. Anything less than the largest number there is.
+  /// At most kMost times. Not negative, and less than the largest number there is.
   void push(VertexId v) { numbers_[count_++] = v; }
 
   void sort() {

@@ -34,12 +34,15 @@ constexpr int kOwnRow = CellNeighbourhood::row(0, 0);
 template <class Cells>
 class Extraction {
  public:
-  /// `with_labels`: the faces get the property of their two labels.
-  Extraction(const Cells& cells, Adjacency adjacency, bool with_labels, const Context& context)
+  /// `whole`: no part of the surface will be taken; `with_labels`: the faces get the property of
+  /// their two labels.
+  Extraction(const Cells& cells, Adjacency adjacency, bool whole, bool with_labels,
+             const Context& context)
       : cells_(cells),
         adjacency_(adjacency),
         numbering_(cells, context),
-        builder_(cells.grid(), numbering_.vertices(), numbering_.faces(), with_labels, context),
+        builder_(cells.grid(), numbering_.vertices(), numbering_.faces(), with_labels, whole,
+                 context),
         surfels_(builder_.surfels()),
         labels_(builder_.labels()),
         corners_(builder_.corners()),
@@ -49,7 +52,12 @@ class Extraction {
   SurfaceBuilder run(const Context& context) && {
     std::vector<std::vector<Junction>> junctions(static_cast<std::size_t>(numbering_.slices()));
     context.begin("extract", numbering_.slices());
-    parallel_for(context, numbering_.slices(), 1, [&](Index z, Index) {
+    parallel_for(context, numbering_.slices() + 1, 1, [&](Index task, Index) {
+      if (task == 0) {
+        builder_.make_edges();
+        return;
+      }
+      const Index z = task - 1;
       for (Index w = 0; w < numbering_.words(); ++w) {
         CellNeighbourhood near(numbering_, w, z);
         for (const CellWord& here : numbering_.column(w, z)) {
@@ -170,12 +178,16 @@ class Extraction {
   std::span<SideCode> opposite_;
 };
 
+bool keeps_all(const ExtractOptions& options) {
+  return options.border == Border::closed && !options.part && options.between.empty();
+}
+
 /// Which faces the options keep; empty where all are kept.
 std::vector<std::uint8_t> kept_faces(SurfaceBuilder& builder, const Grid& grid,
                                      const ExtractOptions& options, const Context& context) {
   const auto surfels = builder.surfels();
   const auto labels = builder.labels();
-  if (options.border == Border::closed && !options.part && options.between.empty()) return {};
+  if (keeps_all(options)) return {};
   const auto wanted = [&](const LabelPair& pair) {
     return std::any_of(options.between.begin(), options.between.end(), [&](const LabelPair& p) {
       return p == pair || LabelPair{p[1], p[0]} == pair;
@@ -207,7 +219,8 @@ DigitalSurface extract(const Cells& cells, const ExtractOptions& options, bool w
     }
   }
   SurfaceBuilder builder =
-      Extraction<Cells>(cells, options.adjacency, with_labels, context).run(context);
+      Extraction<Cells>(cells, options.adjacency, keeps_all(options), with_labels, context)
+          .run(context);
   const auto keep = kept_faces(builder, cells.grid(), options, context);
   if (!keep.empty()) builder = std::move(builder).part(keep, context);
   return std::move(builder).finish(options.adjacency, options.glue, context);

@@ -1,6 +1,7 @@
 #include "libdsc/surface/surface_builder.h"
 
 #include "libdsc/base/checked.h"
+#include "libdsc/base/parallel.h"
 #include "libdsc/surface/halfedges.h"
 #include "libdsc/surface/mesh_vertices.h"
 #include "libdsc/surface/surface_counts.h"
@@ -16,31 +17,49 @@ Index filled_bytes(Index vertices, Index faces, bool with_labels) {
   return (24 + 4) * vertices + (4 + 16 + 16 + (with_labels ? 8 : 0) + 4 * 4 + 3 * 16) * faces;
 }
 
-/// What finish() takes at most beside that: a face has two edges of two halfedges each, and per
-/// side a halfedge in a list; a vertex its id, its leader and its pointel. Where vertices are split,
-/// there are two more sets of corners, and as many vertices as umbrellas, of three corners each.
+/// Two edges a face, of two halfedges each.
+Index edge_bytes(Index faces) { return 2 * 2 * 16 * faces; }
+
+/// What finish() takes at most beside both: a face per side a halfedge in a list; a vertex its id,
+/// its leader and its pointel. Where vertices are split, there are two more sets of corners, and as
+/// many vertices as umbrellas, of three corners each.
 Index linked_bytes(Index vertices, Index faces) {
   constexpr Index kVertex = 4 + 4 + 4;
   constexpr Index kUmbrella = kVertex + 24 + 4;
-  return kVertex * vertices + (2 * 2 * 16 + 4 * 4 + 2 * 16 + kUmbrella * 4 / 3) * faces;
+  return kVertex * vertices + (4 * 4 + 2 * 16 + kUmbrella * 4 / 3) * faces;
 }
 
 }  // namespace
 
 SurfaceBuilder::SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels,
-                               const Context& context) {
+                               bool whole, const Context& context)
+    : whole_(whole) {
   (void)checked_id(checked_product(8, faces, "surface halfedges"), "surface halfedges");
   (void)checked_id(vertices, "surface vertices");
-  context.need("extract", filled_bytes(vertices, faces, with_labels));
+  context.need("extract",
+               filled_bytes(vertices, faces, with_labels) + (whole ? edge_bytes(faces) : 0));
   surface_.grid_ = grid;
   surface_.vertex_count_ = vertices;
-  if (with_labels) surface_.mesh().add_property(surface_.labels_, property::kLabels);
-  // A few more vertices are common, and would move all the others.
-  surface_.mesh().reserve(static_cast<std::size_t>(vertices + vertices / 16), 0,
-                          static_cast<std::size_t>(faces));
-  surface_.mesh().resize(static_cast<std::size_t>(vertices), 0, static_cast<std::size_t>(faces));
+  SurfaceMesh& mesh = surface_.mesh();
+  if (with_labels) mesh.add_property(surface_.labels_, property::kLabels);
+  // A few more vertices or edges are common, and would move all the others.
+  const auto V = static_cast<std::size_t>(vertices), F = static_cast<std::size_t>(faces);
+  mesh.reserve(V + V / 16, whole ? 2 * F + F / 16 : 0, F);
+  // The first touch of memory is slow, so that each array gets a thread.
+  parallel_for(context, 4, 1, [&](Index array, Index) {
+    if (array == 0) mesh.property(mesh.points_property_handle()).data_vector().resize(V);
+    if (array == 1) mesh.property(surface_.corners_).data_vector().resize(F);
+    if (array == 2) mesh.property(surface_.surfels_).data_vector().resize(F);
+    if (array == 3 && with_labels) mesh.property(surface_.labels_).data_vector().resize(F);
+  });
+  mesh.resize(V, 0, F);
   opposite_ =
       std::make_unique_for_overwrite<topology::SideCode[]>(static_cast<std::size_t>(4 * faces));
+}
+
+void SurfaceBuilder::make_edges() {
+  SurfaceMesh& mesh = surface_.mesh();
+  if (whole_) mesh.resize(mesh.n_vertices(), 2 * mesh.n_faces(), mesh.n_faces());
 }
 
 std::span<Surfel> SurfaceBuilder::surfels() {
@@ -70,7 +89,8 @@ std::span<OpenMesh::Vec3d> SurfaceBuilder::positions() {
 DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Context& context) && {
   const Index pointels = surface_.vertex_count_;
   context.begin("link", 3);
-  context.need("link", linked_bytes(pointels, static_cast<Index>(surfels().size())));
+  const auto faces = static_cast<Index>(surfels().size());
+  context.need("link", linked_bytes(pointels, faces) + (whole_ ? 0 : edge_bytes(faces)));
   SurfaceCounts& counts = surface_.counts_;
   counts = topology::count_glued(corners(), pointels, opposite(), junctions_, labels(), context);
   context.advance(1);
@@ -84,16 +104,17 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
   const auto points = positions();
   OpenMesh::VPropHandleT<VertexId> ids;
   mesh.add_property(ids, property::kVertexId);
-  for (std::size_t v = 0; v < vertices.leaders.size(); ++v) {
-    const auto index = static_cast<Index>(v);
-    VertexId id = static_cast<VertexId>(v);
-    if (index >= pointels) {
-      const VertexId pointel = vertices.pointel_of[v - static_cast<std::size_t>(pointels)];
-      points[v] = points[static_cast<std::size_t>(pointel)];
-      id = glue == Glue::pointel ? pointel : vertices.umbrella_of(index);
+  parallel_for(context, static_cast<Index>(points.size()), 65536, [&](Index first, Index last) {
+    for (Index v = first; v < last; ++v) {
+      auto id = static_cast<VertexId>(v);
+      if (v >= pointels) {
+        const VertexId pointel = vertices.pointel_of[static_cast<std::size_t>(v - pointels)];
+        points[static_cast<std::size_t>(v)] = points[static_cast<std::size_t>(pointel)];
+        id = glue == Glue::pointel ? pointel : vertices.umbrella_of(v);
+      }
+      mesh.property(ids, OpenMesh::VertexHandle(static_cast<int>(v))) = id;
     }
-    mesh.property(ids, OpenMesh::VertexHandle(static_cast<int>(v))) = id;
-  }
+  });
   if (glue == Glue::umbrella) {
     const auto table = corners();
     for (Index v = pointels; v < static_cast<Index>(vertices.leaders.size()); ++v) {

@@ -23,10 +23,14 @@ namespace dsc {
 
 class SurfaceBuilder {
  public:
-  /// Room for `faces` faces and `vertices` pointels. \throws LimitError beyond 32-bit ids or the context's
-  /// memory.
-  SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels = false,
-                 const Context& context = {});
+  /// Room for `faces` faces and `vertices` pointels. `whole`: no part() will be taken, so that
+  /// make_edges() may make the edges. \throws LimitError beyond 32-bit ids or the context's memory.
+  SurfaceBuilder(const Grid& grid, Index vertices, Index faces, bool with_labels, bool whole,
+                 const Context& context);
+
+  /// Makes the edges that a whole surface has at least, two a face; finish() adds those missing.
+  /// That takes one thread some time, but others may fill the spans below meanwhile.
+  void make_edges();
 
   std::span<Surfel> surfels();
   std::span<LabelPair> labels();           ///< empty without labels
@@ -49,6 +53,7 @@ class SurfaceBuilder {
 
  private:
   DigitalSurface surface_;
+  bool whole_;
   std::unique_ptr<topology::SideCode[]> opposite_;  ///< not cleared: every side is written
   std::vector<topology::Junction> junctions_;
 };

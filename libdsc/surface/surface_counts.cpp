@@ -73,10 +73,17 @@ SurfaceCounts count_glued(std::span<const QuadCorners> corners, Index vertices,
   counts.edges = sides.edges;
   counts.boundary_edges = sides.unlinked;
   counts.euler = counts.vertices - counts.edges + counts.faces;
-  for (Index v = 0; v < vertices; ++v) {
-    const auto id = static_cast<VertexId>(v);
-    if (components.find(id) == id) ++counts.components;
-  }
+  counts.components = parallel_reduce(
+      context, vertices, 65536, Index{0},
+      [&](Index first, Index last) {
+        Index roots = 0;
+        for (Index v = first; v < last; ++v) {
+          const auto id = static_cast<VertexId>(v);
+          if (components.find(id) == id) ++roots;
+        }
+        return roots;
+      },
+      [](Index a, Index b) { return a + b; });
   return counts;
 }
 

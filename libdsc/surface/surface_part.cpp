@@ -37,7 +37,7 @@ SurfaceBuilder SurfaceBuilder::part(const std::vector<std::uint8_t>& keep,
   };
 
   SurfaceBuilder result(surface_.grid(), kept_vertices, kept_faces, surface_.labels_.is_valid(),
-                        context);
+                        false, context);
   const auto new_corners = result.corners();
   const auto new_surfels = result.surfels();
   const auto old_labels = labels(), new_labels = result.labels();
