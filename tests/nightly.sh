@@ -7,9 +7,11 @@
 #   asan       every test under AddressSanitizer and UndefinedBehaviorSanitizer, CHOLMOD, ITK and CGAL too
 #   tsan       every test under ThreadSanitizer, parallel loops on std::thread
 #   valgrind   the small tests of the optimised build under memcheck
-#   long       DSC_LONG_TESTS=1: 100 000 random volumes, 1000 killed runs, 500 interrupted ones and more
+#   fuzz       every reader under libFuzzer, 10^7 executions each (tests/fuzz/run.sh); needs clang
+#   long       DSC_LONG_TESTS=1: 100 000 random volumes, 1000 killed runs, 500 interrupted
+#              ones, images cut at every byte
 #
-# Without a PART, all. Debian: libasan8, libubsan1, libtsan2 (with gcc), valgrind.
+# Without a PART, all. Debian: libasan8, libubsan1, libtsan2 (with gcc), valgrind, clang.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ -z ${DSC_TEST_DATA:-} && -d ../shared/data ]]; then
@@ -22,7 +24,7 @@ while (($# > 0)) && [[ $1 != -- ]]; do
   shift
 done
 [[ ${1:-} != -- ]] || shift
-((${#parts[@]})) || parts=(asan tsan valgrind long)
+((${#parts[@]})) || parts=(asan tsan valgrind fuzz long)
 jobs=$(getconf _NPROCESSORS_ONLN)
 ctest_options=("$@")
 
@@ -71,18 +73,20 @@ run_valgrind() {
   done
 }
 
+run_fuzz() { tests/fuzz/run.sh; }
+
 run_long() {
   build dev
   DSC_LONG_TESTS=1 test_all dev --tests-regex \
-    'ExtractRandom|RandomVolumesOfUpTo8|Killed|Interrupt|GeodesicConvergence'
+    'ExtractRandom|RandomVolumesOfUpTo8|Killed|Interrupt|GeodesicConvergence|Truncated|CutImages'
 }
 
 failed=()
 for part in "${parts[@]}"; do
   case $part in
-    asan | tsan | valgrind | long) ;;
+    asan | tsan | valgrind | fuzz | long) ;;
     *)
-      sed -n '5,14p' "${BASH_SOURCE[0]}" >&2
+      sed -n '5,16p' "${BASH_SOURCE[0]}" >&2
       exit 2
       ;;
   esac

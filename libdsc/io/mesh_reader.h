@@ -40,7 +40,9 @@ bool is_mesh_path(const std::string& path);
 /// Reads the mesh of a file. Memory is bounded by a small multiple of the file's size, whatever
 /// sizes its header promises. A text file may end without a newline; a number on which it ends is
 /// then taken as whole, which a remark says, as it may have been cut off. Only an .obj file that
-/// libdsc wrote is known to end in one and is refused.
+/// libdsc wrote is known to end in one and is refused. An .obj file of others says nowhere how much
+/// it holds, and text .stl nowhere how many solids: cut after a line, or after a solid, it is a
+/// whole file. Every other cut is an error.
 /// \throws UsageError where the ending is unknown; InputError naming the file, the line or byte,
 /// and the remedy where the file cannot be read, is truncated, goes on after its end, contradicts
 /// itself, has a coordinate that is not finite, a face of fewer than 3 corners, or a corner that is

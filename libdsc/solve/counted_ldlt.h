@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Eigen's sparse L D Lᵀ in two steps, so that the factor is counted before it is made. Private to
 /// solve/.
 #pragma once

@@ -28,6 +28,7 @@ inline Index matrix_bytes(Index columns, Index nonzeros) {
   return nonzeros * static_cast<Index>(sizeof(double) + sizeof(int)) +
          columns * static_cast<Index>(sizeof(int));
 }
+/// The same of a matrix that is there.
 inline Index matrix_bytes(const SparseMatrix& A) { return matrix_bytes(A.cols(), A.nonZeros()); }
 
 }  // namespace dsc

@@ -115,7 +115,7 @@ bool same_bits(const Values& a, const Values& b) {
 void check_volume_reader(
     const OpenVolume& open, const std::string& ending,
     const std::function<std::unique_ptr<VolumeSource>(std::string_view bytes)>& reopen) {
-  constexpr Index kMost = Index{1} << 16;
+  constexpr Index kMost = Index{1} << 12;
   const auto source = open();
   const Grid grid = source->grid();
   grid.check();
@@ -131,7 +131,7 @@ void check_volume_reader(
   const VoxelValues view =
       std::visit([](const auto& v) -> VoxelValues { return std::span(v); }, values);
   // Compression takes most of the time; now and then is enough.
-  const VolumeWriteOptions options{.compress = grid.voxels() % 8 == 0};
+  const VolumeWriteOptions options{.compress = grid.voxels() % 32 == 0};
   write_volume(pipe->path(), grid, view, options, kContext);
   const auto again = reopen(pipe->take());
   require(again->grid().size == grid.size, "sizes are read back");

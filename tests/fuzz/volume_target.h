@@ -13,7 +13,7 @@ namespace dsc::fuzz {
 using OpenVolume = std::function<std::unique_ptr<VolumeSource>()>;
 
 /// Reads the volume that `open` opens anew each time, compares labels and bits with its values,
-/// writes it as `ending` (empty: not) and reads that with `reopen`. Grids above 65 536 voxels are
+/// writes it as `ending` (empty: not) and reads that with `reopen`. Grids above 4096 voxels are
 /// opened only: files of a few bytes may stand for them, and they take long.
 /// \throws Broken; dsc::Error where the bytes are refused.
 void check_volume_reader(

@@ -3,7 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/io/read_binary.h"
 #include "libdsc/io/read_labels.h"
-#include "tests/io/image_bytes.h"
+#include "tests/io/image_variants.h"
 #include "tests/io/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -120,21 +120,6 @@ TEST_F(Images, ADicomSeriesIsOrderedByItsPlaceInTheWorld) {
     std::filesystem::remove(series + "/1");
     expect_input_error([&] { (void)open_volume(series); }, {"missing or uneven"});
   }
-}
-
-/// The same with deflated values.
-std::string compressed_mha(const TestImage& image) {
-  std::string text = mha_bytes(image);
-  text.replace(text.find("CompressedData = False"), 22, "CompressedData = True");
-  const std::string values = deflated(image.value_bytes());
-  text.insert(text.find("ElementDataFile"),
-              "CompressedDataSize = " + std::to_string(values.size()) + "\n");
-  return text.substr(0, text.find("LOCAL\n") + 6) + values;
-}
-std::string compressed_nrrd(const TestImage& image) {
-  std::string text = nrrd_bytes(image);
-  text.replace(text.find("encoding: raw"), 13, "encoding: gzip");
-  return text.substr(0, text.find("\n\n") + 2) + gzipped(image.value_bytes());
 }
 
 TEST_F(Images, CompressedValuesAreInflated) {

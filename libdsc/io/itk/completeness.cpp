@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -63,19 +63,18 @@ T number_at(const std::vector<char>& bytes, std::size_t at, bool swap) {
   return value;
 }
 
-/// `a` times what may be a negative number of a damaged header.
-Size times(Size a, std::int64_t n) {
+/// `a` times `n`. \throws ImageTooLarge where 64 bits cannot hold it.
+Size times(Size a, Size n) {
   Size product = 0;
-  if (n < 0) throw ImageError("the header has a negative size");
-  if (__builtin_mul_overflow(a, static_cast<Size>(n), &product)) {
+  if (__builtin_mul_overflow(a, n, &product)) {
     throw ImageTooLarge("the header promises more than 64 bits can count");
   }
   return product;
 }
 
-/// The bytes that a zlib or gzip stream inflates to, from `offset` of the file on; some number
-/// above `enough` where there are more.
-Size inflated_bytes(const std::string& path, Size offset, Size enough) {
+/// The bytes that a zlib or gzip stream inflates to, which lies in `length` bytes of the file from
+/// `offset` on; some number above `enough` where there are more.
+Size inflated_bytes(const std::string& path, Size offset, Size length, Size enough) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
   z_stream stream{};
@@ -85,9 +84,10 @@ Size inflated_bytes(const std::string& path, Size offset, Size enough) {
   int result = Z_OK;
   while ((result == Z_OK || result == Z_BUF_ERROR) && total <= enough) {
     if (stream.avail_in == 0) {
-      file.read(in.data(), static_cast<std::streamsize>(in.size()));
+      file.read(in.data(), static_cast<std::streamsize>(std::min<Size>(in.size(), length)));
       stream.next_in = reinterpret_cast<Bytef*>(in.data());
       stream.avail_in = static_cast<uInt>(file.gcount());
+      length -= stream.avail_in;
       if (stream.avail_in == 0) break;
     }
     stream.next_out = reinterpret_cast<Bytef*>(out.data());
@@ -108,7 +108,11 @@ class TiffBytes {
       : file_(path, std::ios::binary), size_(std::filesystem::file_size(path)) {
     const std::vector<char> start = bytes(0, 8);
     swap_ = start[0] == 'M';
-    big_ = number_at<std::uint16_t>(start, 2, swap_) == 43;
+    const auto version = number_at<std::uint16_t>(start, 2, swap_);
+    big_ = version == 43;
+    if (start[0] != start[1] || (start[0] != 'I' && !swap_) || (version != 42 && !big_)) {
+      throw ImageError("this is no TIFF file");
+    }
   }
 
   bool big() const { return big_; }
@@ -182,39 +186,56 @@ bool is_true(const std::string& text) {
 
 }  // namespace
 
+/// The bytes of a value of a NIfTI type; 0 where it is none of a number.
+Size nifti_bytes(int type) {
+  switch (type) {
+    case 2:    // 8 bits, unsigned
+    case 256:  // signed
+      return 1;
+    case 4:
+    case 512:
+      return 2;
+    case 8:
+    case 16:  // float
+    case 768:
+      return 4;
+    case 64:  // double
+    case 1024:
+    case 1280:
+      return 8;
+    default:
+      return 0;
+  }
+}
+
 void check_nifti(const std::string& path) {
   GzFile file(path);
-  std::vector<char> start(540);
+  std::vector<char> start(352);
   Size there = file.read(start.data(), static_cast<unsigned>(start.size()));
+  if (there >= 4) {
+    for (const bool swap : {false, true}) {
+      if (number_at<std::int32_t>(start, 0, swap) == 540) {
+        throw ImageError("NIfTI-2 is not read; save the image as NIfTI-1 or NRRD");
+      }
+    }
+  }
   if (there < 348) truncated(348, there);
-  bool swap = false;
-  std::int32_t header = number_at<std::int32_t>(start, 0, false);
-  if (header != 348 && header != 540) {
-    swap = true;
-    header = number_at<std::int32_t>(start, 0, true);
+  const bool swap = number_at<std::int32_t>(start, 0, false) != 348;
+  // Where the values begin: ITK reads them from within the header, or from nowhere.
+  const double offset = number_at<float>(start, 108, swap);
+  if (!(offset >= 352 && offset < 0x1p31)) {
+    throw ImageError("the header says that the values begin at byte " + std::to_string(offset) +
+                     "; it is damaged");
   }
-  const bool second = header == 540;
-  Size promised = 0;
-  if (second) {
-    const auto dims = number_at<std::int64_t>(start, 16, swap);
-    promised = static_cast<Size>(number_at<std::int16_t>(start, 14, swap)) / 8;
-    for (std::int64_t d = 1; d <= std::clamp<std::int64_t>(dims, 0, 7); ++d) {
-      promised = times(promised,
-                       number_at<std::int64_t>(start, static_cast<std::size_t>(16 + 8 * d), swap));
-    }
-    const auto offset = number_at<std::int64_t>(start, 168, swap);
-    if (offset < 0 || __builtin_add_overflow(promised, static_cast<Size>(offset), &promised)) {
-      throw ImageError("its values begin at the impossible byte " + std::to_string(offset));
-    }
-  } else {
-    const int dims = number_at<std::int16_t>(start, 40, swap);
-    promised = static_cast<Size>(number_at<std::int16_t>(start, 72, swap)) / 8;
-    for (int d = 1; d <= std::clamp(dims, 0, 7); ++d) {
-      const auto size = number_at<std::int16_t>(start, static_cast<std::size_t>(40 + 2 * d), swap);
-      promised = times(promised, std::max<std::int16_t>(1, size));
-    }
-    promised += static_cast<Size>(std::max(0.F, number_at<float>(start, 108, swap)));
+  const Size value = nifti_bytes(number_at<std::int16_t>(start, 70, swap));
+  if (value == 0) throw ImageError("its values are no integers or floats of up to 64 bits");
+  Size promised = value;
+  const int dims = number_at<std::int16_t>(start, 40, swap);
+  for (int d = 1; d <= std::clamp(dims, 0, 7); ++d) {
+    const auto size = number_at<std::int16_t>(start, static_cast<std::size_t>(40 + 2 * d), swap);
+    promised = times(promised, static_cast<Size>(std::max<std::int16_t>(1, size)));
   }
+  promised += static_cast<Size>(offset);
   if (file.compressed()) {
     std::vector<char> buffer(1 << 18);
     // To the end, where the checksum is; no further than promised where there is more.
@@ -225,6 +246,20 @@ void check_nifti(const std::string& path) {
     there = std::filesystem::file_size(path);
   }
   if (there < promised) truncated(promised, there);
+}
+
+void check_nrrd(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  for (std::string line; std::getline(file, line) && !line.empty() && line != "\r";) {
+    if (!line.starts_with("encoding:")) continue;
+    const std::size_t first = line.find_first_not_of(" \t", 9);
+    const std::string encoding = first == std::string::npos ? "" : line.substr(first);
+    for (const char* text : {"ascii", "text", "txt"}) {
+      if (encoding.starts_with(text)) {
+        throw ImageError("its values are written as text; save them as raw or gzip");
+      }
+    }
+  }
 }
 
 void check_meta(const std::string& path, std::uint64_t bytes) {
@@ -241,22 +276,31 @@ void check_meta(const std::string& path, std::uint64_t bytes) {
   const bool local = data == "LOCAL" || data == "Local" || data == "local";
   const std::string where =
       local ? path : (std::filesystem::path(path).parent_path() / data).string();
-  Size offset = local ? static_cast<Size>(file.tellg()) : 0;
-  if (!local && header.contains("HeaderSize")) {
-    const long long skipped = std::atoll(header["HeaderSize"].c_str());
-    offset = skipped > 0 ? static_cast<Size>(skipped) : 0;
-  }
   const bool compressed = is_true(header["CompressedData"]);
-  if (compressed && local && !header.contains("CompressedDataSize")) {
-    throw ImageError("the header lacks CompressedDataSize");  // MetaIO would read zeros
-  }
   const Size size = std::filesystem::file_size(where);
-  const Size there =
-      compressed ? inflated_bytes(where, offset, bytes) : size - std::min(size, offset);
+  Size offset = local ? static_cast<Size>(file.tellg()) : 0;
+  if (header.contains("HeaderSize")) {  // which MetaIO follows, in this file too
+    const long long skipped = std::atoll(header["HeaderSize"].c_str());
+    if (skipped > 0) offset = static_cast<Size>(skipped);
+    if (skipped < 0 && !compressed) offset = size - std::min(size, bytes);  // the file's end
+  }
+  offset = std::min(size, offset);
+  Size there = size - offset;
+  if (compressed) {
+    Size length = there;
+    if (header.contains("CompressedDataSize")) {
+      const long long given = std::atoll(header["CompressedDataSize"].c_str());
+      if (given <= 0) throw ImageError("CompressedDataSize is not positive");
+      length = std::min(length, static_cast<Size>(given));
+    } else if (local) {
+      throw ImageError("the header lacks CompressedDataSize");  // MetaIO would read zeros
+    }
+    there = inflated_bytes(where, offset, length, bytes);
+  }
   if (there < bytes) truncated(bytes, there);
 }
 
-void check_nrrd(const std::string& path, std::uint64_t bytes) {
+void check_nrrd_size(const std::string& path, std::uint64_t bytes) {
   std::ifstream file(path, std::ios::binary);
   std::string data, encoding;
   const auto field = [](const std::string& line, const std::string& key) {
@@ -283,17 +327,22 @@ void check_nrrd(const std::string& path, std::uint64_t bytes) {
 void check_tiff(const std::string& path) {
   TiffBytes file(path);
   const Size entry = file.big() ? 20 : 12;
-  Size directories = 0;
-  for (Size at = file.offset(file.big() ? 8 : 4); at != 0; ++directories) {
-    if (directories > file.size() / 16) throw ImageError("the TIFF directories run in a circle");
+  Size entries = 0;
+  for (Size at = file.offset(file.big() ? 8 : 4); at != 0;) {
     const Size count = file.big() ? file.number<std::uint64_t>(at) : file.number<std::uint16_t>(at);
     const Size first = at + (file.big() ? 8 : 2);
     if (count > file.size()) throw ImageError("a TIFF directory is damaged");
+    // Each has bytes of its own, unless directories lead back to themselves or lie on each other.
+    entries += std::max<Size>(1, count);
+    if (entries > file.size() / entry) throw ImageError("the TIFF directories run in a circle");
     std::vector<Size> offsets, lengths;
     for (Size e = first; e < first + count * entry; e += entry) {
       const Size tag = file.number<std::uint16_t>(e);
-      if (tag == 273 || tag == 324) offsets = file.values(e);
-      if (tag == 279 || tag == 325) lengths = file.values(e);
+      const bool of_offsets = tag == 273 || tag == 324, of_lengths = tag == 279 || tag == 325;
+      if (!of_offsets && !of_lengths) continue;
+      std::vector<Size>& numbers = of_offsets ? offsets : lengths;
+      if (!numbers.empty()) throw ImageError("a TIFF directory has an entry twice");
+      numbers = file.values(e);
     }
     for (Size i = 0; i < std::min(offsets.size(), lengths.size()); ++i) {
       file.check(offsets[i], lengths[i]);
@@ -302,29 +351,11 @@ void check_tiff(const std::string& path) {
   }
 }
 
-void check_dicom(const std::string& path, std::uint64_t pixels) {
-  constexpr std::string_view kPixelData("\xe0\x7f\x10\x00", 4);
-  constexpr std::string_view kSequenceEnd("\xfe\xff\xdd\xe0\0\0\0\0", 8);
-  constexpr Size kUndefined = 0xffffffff;  // a sequence of compressed fragments
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-  const std::string_view text(bytes.data(), bytes.size());
-  bool found = false;
-  // There may be several: small previews, or by chance the same bytes among the pixels.
-  for (Size at = 0; (at = text.find(kPixelData, at)) != std::string_view::npos; at += 4) {
-    if (at + 12 > text.size()) break;
-    const std::string_view type = text.substr(at + 4, 2);
-    const bool with_type = type == "OW" || type == "OB";
-    const Size length = number_at<std::uint32_t>(bytes, at + (with_type ? 8 : 4), false);
-    const Size first = at + (with_type ? 12 : 8);
-    found = true;
-    if (length == kUndefined) {
-      if (text.find(kSequenceEnd, first) != std::string_view::npos) return;
-    } else if (length >= pixels && length <= text.size() - first) {
-      return;
-    }
+void check_dicom(const DicomPixels& found, std::uint64_t pixels) {
+  if (!found.compressed) {
+    const Size bytes = (pixels * found.bits + 7) / 8;
+    if (found.bytes < bytes) truncated(bytes, found.bytes);
   }
-  if (found) throw ImageError("its pixel data goes on after the end of the file; it is truncated");
 }
 
 }  // namespace dsc::detail

@@ -57,16 +57,11 @@ itk::ImageIOBase::Pointer reader_for(Format format) {
 
 /// Throws where the file lacks values and ITK would not say so.
 void check_complete(Format format, const std::string& path, const itk::ImageIOBase& io) {
-  if (format == Format::nifti) check_nifti(path);
   if (format == Format::meta) {
     check_meta(path, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
   }
   if (format == Format::nrrd) {
-    check_nrrd(path, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
-  }
-  if (format == Format::tiff) check_tiff(path);
-  if (format == Format::dicom) {
-    check_dicom(path, static_cast<std::uint64_t>(io.GetImageSizeInPixels()));
+    check_nrrd_size(path, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
   }
 }
 
@@ -121,6 +116,13 @@ class ImageFile final : public Image {
 
 itk::ImageIOBase::Pointer open_image_file(const std::string& path) {
   const Format format = format_of(path);
+  // These are judged before ITK's readers see them, which abort on some damaged ones and walk round
+  // in TIFF directories that run in a circle.
+  DicomPixels pixels;
+  if (format == Format::dicom) pixels = find_dicom_pixels(path);
+  if (format == Format::nifti) check_nifti(path);
+  if (format == Format::nrrd) check_nrrd(path);
+  if (format == Format::tiff) check_tiff(path);
   const itk::ImageIOBase::Pointer io = reader_for(format);
   if (!io->CanReadFile(path.c_str())) {
     throw ImageError(std::string("this is no file that ") + io->GetNameOfClass() + " reads");
@@ -128,6 +130,9 @@ itk::ImageIOBase::Pointer open_image_file(const std::string& path) {
   io->SetFileName(path);
   io->ReadImageInformation();
   check_complete(format, path, *io);
+  if (format == Format::dicom) {
+    check_dicom(pixels, static_cast<std::uint64_t>(io->GetImageSizeInPixels()));
+  }
   return io;
 }
 

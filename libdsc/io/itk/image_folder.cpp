@@ -1,4 +1,5 @@
 // A folder with the slices of one volume, one a file.
+#include "libdsc/io/itk/dicom_elements.h"
 #include "libdsc/io/itk/image.h"
 
 #include <itkGDCMSeriesFileNames.h>
@@ -108,6 +109,16 @@ class Slices final : public Image {
 };
 
 std::unique_ptr<Image> open_series(const std::string& path) {
+  // Before GDCM looks for series, and aborts on a file that ends early. It passes over other files.
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    const std::string file = entry.path().string();
+    if (!entry.is_regular_file() || !has_dicom_mark(file)) continue;
+    try {
+      (void)find_dicom_pixels(file);
+    } catch (const ImageError& error) {
+      throw ImageError("slice '" + file + "': " + error.what());
+    }
+  }
   const auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(true);
   names->SetDirectory(path);
