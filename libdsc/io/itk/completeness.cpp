@@ -235,7 +235,9 @@ void check_nifti(const std::string& path) {
     const auto size = number_at<std::int16_t>(start, static_cast<std::size_t>(40 + 2 * d), swap);
     promised = times(promised, static_cast<Size>(std::max<std::int16_t>(1, size)));
   }
-  promised += static_cast<Size>(offset);
+  if (__builtin_add_overflow(promised, static_cast<Size>(offset), &promised)) {
+    throw ImageTooLarge("the header promises more than 64 bits can count");
+  }
   if (file.compressed()) {
     std::vector<char> buffer(1 << 18);
     // To the end, where the checksum is; no further than promised where there is more.
