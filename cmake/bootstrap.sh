@@ -27,10 +27,11 @@ say() { printf '== %s\n' "$*"; }
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
+picture_packages=(libembree-dev libpng-dev)
 image_packages=(libinsighttoolkit5-dev)
 benchmark_packages=(libbenchmark-dev)
 docs_packages=(libjs-mathjax)
-test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
+test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${picture_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -58,6 +59,7 @@ install_missing() {
     [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'
     [[ " $* " != *mathjax* ]] || printf '     %s\n' 'MathJax 2, in /usr/share/javascript/mathjax (the pages alone need no more than these two and CMake)'
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'
+    [[ " $* " != *libembree* ]] || printf '     %s\n' 'Embree 3' 'libpng 1.6'
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
     return
