@@ -50,17 +50,17 @@ void draw_bar(const Key& key, const Rectangle& bar, double isoline_step, const R
   };
   const int rows = std::max(1, static_cast<int>(std::lround(bar.height)));
   for (int i = 0; i < rows; ++i) {
-    const double t = key.high > key.low ? 1 - (i + 0.5) / rows : 0.5;
-    canvas.fill({bar.left, std::round(bar.top) + i, bar.width, 1}, (*key.map)(t));
+    const double value = key.high - (key.high - key.low) * (i + 0.5) / rows;
+    canvas.fill({bar.left, std::round(bar.top) + i, bar.width, 1}, key.colour(value));
   }
   const double tip = 0.8 * bar.width, right = bar.left + bar.width,
                middle = bar.left + bar.width / 2;
   const double top = std::round(bar.top), end = top + rows;
   if (key.above) {
-    canvas.triangle({{{bar.left, top}, {right, top}, {middle, top - tip}}}, (*key.map)(1));
+    canvas.triangle({{{bar.left, top}, {right, top}, {middle, top - tip}}}, key.colour(key.high));
   }
   if (key.below) {
-    canvas.triangle({{{bar.left, end}, {right, end}, {middle, end + tip}}}, (*key.map)(0));
+    canvas.triangle({{{bar.left, end}, {right, end}, {middle, end + tip}}}, key.colour(key.low));
   }
   for (const double value : multiples(key.low, key.high, isoline_step)) {
     const Segment line{{bar.left, place(value)}, {right, place(value)}};
@@ -106,7 +106,7 @@ void draw_key(const Key& key, double isoline_step, const Rgb& line_colour, Canva
     if (key.above) y += 0.8 * kBarWidth * unit;
     const Rectangle bar{std::round(area.left), y, std::round(kBarWidth * unit), bar_height};
     draw_bar(key, bar, isoline_step, line_colour, canvas);
-    y += bar_height + (key.below ? 0.8 * kBarWidth * unit : 0) + (swatches > 0 ? 6 * unit : 0);
+    y += bar_height + (key.below ? 0.8 * kBarWidth * unit : 0) + (swatches > 0 ? 9 * unit : 0);
   }
   for (std::size_t i = 0; i < swatches; ++i, y += kLine * unit) {
     canvas.fill({area.left, y, kSwatch * unit, kSwatch * unit}, key.swatches[i].colour);

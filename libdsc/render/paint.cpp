@@ -23,7 +23,7 @@ class Scalar : public Paint {
  public:
   Scalar(std::string name, FieldOn on, std::vector<double> values, const std::string& map,
          const std::optional<std::array<double, 2>>& range)
-      : name_(std::move(name)), on_(on), values_(std::move(values)) {
+      : on_(on), values_(std::move(values)) {
     double least = std::numeric_limits<double>::infinity(), largest = -least;
     for (const double value : values_) {
       if (!std::isfinite(value)) {
@@ -34,20 +34,14 @@ class Scalar : public Paint {
       largest = std::max(largest, value);
     }
     if (least > largest) least = largest = 0;
-    const bool signed_values = least < 0 && largest > 0;
-    map_.emplace(!map.empty() ? map : signed_values ? "polar" : Colormap::names().front());
-    low_ = least;
-    high_ = largest;
-    if (map_->diverging()) {
-      high_ = std::max(std::abs(least), std::abs(largest));
-      low_ = -high_;
-    }
-    if (range) {
-      low_ = (*range)[0];
-      high_ = (*range)[1];
-    }
-    below_ = least < low_;
-    above_ = largest > high_;
+    key_.title = std::move(name);
+    key_.low = range ? (*range)[0] : least;
+    key_.high = range ? (*range)[1] : largest;
+    key_.below = least < key_.low;
+    key_.above = largest > key_.high;
+    const bool signed_values = key_.low < 0 && key_.high > 0;
+    key_.map.emplace(!map.empty() ? map : signed_values ? "polar" : Colormap::names().front());
+    if (missing_ > 0) key_.swatches.push_back({missing_colour(), "infinite"});
   }
 
   Coat at(const Hit& hit, std::span<const VertexId> corners) const override {
@@ -61,27 +55,19 @@ class Scalar : public Paint {
       }
     }
     if (!std::isfinite(value)) return {missing_colour()};
-    const double width = high_ - low_;
-    Coat coat{(*map_)(width > 0 ? (value - low_) / width : 0.5)};
+    Coat coat{key_.colour(value)};
     if (on_ == FieldOn::vertex) coat.value = value;
     return coat;
   }
 
-  Key key() const override {
-    Key key{name_, map_, low_, high_, below_, above_, {}};
-    if (missing_ > 0) key.swatches.push_back({missing_colour(), "infinite"});
-    return key;
-  }
+  Key key() const override { return key_; }
   Index missing() const override { return missing_; }
   bool has_isolines() const override { return on_ == FieldOn::vertex; }
 
  private:
-  std::string name_;
+  Key key_;
   FieldOn on_;
   std::vector<double> values_;
-  std::optional<Colormap> map_;
-  double low_ = 0, high_ = 0;
-  bool below_ = false, above_ = false;
   Index missing_ = 0;
 };
 
@@ -190,6 +176,15 @@ void check(const FlatMesh& mesh, const Field& field) {
 }
 
 }  // namespace
+
+Rgb Key::colour(double value) const {
+  const double v = std::clamp(value, low, high);
+  if (map->diverging()) {
+    const double most = std::max(std::abs(low), std::abs(high));
+    return (*map)(most > 0 ? 0.5 + 0.5 * (v / most) : 0.5);
+  }
+  return (*map)(high > low ? (v - low) / (high - low) : 0.5);
+}
 
 Rgb missing_colour() { return rgb_of(Lab(0.78, 0., 0.)); }
 

@@ -34,6 +34,10 @@ struct Key {
   double low = 0, high = 0;
   bool below = false, above = false;  ///< whether values lie beyond the ends
   std::vector<Swatch> swatches;
+
+  /// The colour of a value; beyond the ends, that of the nearer end. A diverging map has 0 in its
+  /// middle and as many steps a unit to both sides, so that the bar may show but a part of it.
+  Rgb colour(double value) const;
 };
 
 class Paint {
@@ -57,7 +61,7 @@ std::unique_ptr<Paint> plain_paint();
 
 /// A scalar by its colour; a field of vectors by their lengths, or, where all are unit or 0, by
 /// their directions. `map` empty: lagoon, or polar where values have both signs. `range` not given:
-/// from the least to the largest finite value, for a diverging map with 0 in the middle.
+/// from the least to the largest finite value.
 /// \throws UsageError where a map or a range is asked for and directions are shown, and where a
 /// field's size is not that of the mesh; InputError where it is NaN somewhere.
 std::unique_ptr<Paint> field_paint(const FlatMesh& mesh, const Field& field, const std::string& map,

@@ -15,7 +15,7 @@
 namespace dsc::render {
 namespace {
 
-constexpr int kTile = 32;
+constexpr int kTile = 48;
 
 void check_mesh(const FlatMesh& mesh) {
   if (mesh.faces() == 0) throw InputError("there is nothing to draw: the surface has no face");

@@ -3,7 +3,8 @@
 /// off screen on the CPU. The same bits for any number of threads.
 ///
 /// The surface is looked at from `view` by an orthographic camera and fills the picture but for a
-/// margin and the key at the right. A pixel is the mean of `samples` points, in linear light.
+/// margin and the key at the right. A pixel is the weighted mean, in linear light, of `samples`
+/// points a pixel in it and around it.
 #pragma once
 
 #include "libdsc/io/results.h"

@@ -81,6 +81,25 @@ bool cover_by_arrow(const Scene& scene, double x, double y, Point& point) {
   return true;
 }
 
+/// The weights of the points of a pixel and its eight neighbours in its mean, by how near they are
+/// to its centre: a tent two pixels wide, which lets less moiré through than the pixel's own
+/// square.
+std::vector<double> tent(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<double> weights;
+  double sum = 0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (const Eigen::Vector2d& p : points) {
+        const double x = std::abs(dx + p[0] - 0.5), y = std::abs(dy + p[1] - 0.5);
+        weights.push_back(std::max(0., 1 - x) * std::max(0., 1 - y));
+        sum += weights.back();
+      }
+    }
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> sample_points(int count) {
@@ -96,25 +115,30 @@ std::vector<Eigen::Vector2d> sample_points(int count) {
 
 void draw_tile(const Scene& scene, int left, int top, int right, int bottom, Image& image) {
   const int n = static_cast<int>(scene.points.size());
-  const int width = right - left + 2, height = bottom - top + 2;  // with a pixel all around
+  constexpr int kAround = 2;  // pixels: the filter reaches one further, lines another
+  const int width = right - left + 2 * kAround, height = bottom - top + 2 * kAround;
   std::vector<Point> traced(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(n));
-  const auto at = [&](int x, int y, int k) -> Point& {
-    return traced[static_cast<std::size_t>(((y - top + 1) * width + (x - left + 1)) * n + k)];
+  const auto index = [&](int x, int y, int k) {
+    return static_cast<std::size_t>(((y - top + kAround) * width + (x - left + kAround)) * n + k);
   };
-  const int around = scene.isoline_step > 0 ? 1 : 0;
-  for (int y = top - around; y < bottom + around; ++y) {
-    for (int x = left - around; x < right + around; ++x) {
-      for (int k = 0; k < n; ++k) {
-        const Eigen::Vector2d& p = scene.points[static_cast<std::size_t>(k)];
-        at(x, y, k) = trace(scene, x + p[0], y + p[1]);
+  const auto for_each = [&](int around, auto&& action) {
+    for (int y = top - around; y < bottom + around; ++y) {
+      for (int x = left - around; x < right + around; ++x) {
+        for (int k = 0; k < n; ++k) action(x, y, k);
       }
     }
-  }
+  };
+  const int around = scene.isoline_step > 0 ? kAround : 1;
+  for_each(around, [&](int x, int y, int k) {
+    const Eigen::Vector2d& p = scene.points[static_cast<std::size_t>(k)];
+    traced[index(x, y, k)] = trace(scene, x + p[0], y + p[1]);
+  });
+
   const double soft = 1 / std::sqrt(static_cast<double>(n));
   const auto line = [&](int x, int y, int k, const Point& here) {
     const auto beside = [&](int dx, int dy) {
-      const Point& other = at(x + dx, y + dy, k);
+      const Point& other = traced[index(x + dx, y + dy, k)];
       const double step = std::max(kSteep, kStair * std::min(here.size, other.size));
       return std::abs(other.depth - here.depth) < step ? other.value : kNone;
     };
@@ -122,20 +146,27 @@ void draw_tile(const Scene& scene, int left, int top, int right, int bottom, Ima
     return line_coverage({here.value, beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1)},
                          scene.isoline_step, scene.line_width * (zero ? 2 : 1), soft);
   };
+  // Values and depths stay for the neighbours' lines; colours become final.
+  for_each(1, [&](int x, int y, int k) {
+    Point& here = traced[index(x, y, k)];
+    const Eigen::Vector2d& p = scene.points[static_cast<std::size_t>(k)];
+    if (cover_by_arrow(scene, x + p[0], y + p[1], here)) return;
+    if (!(scene.isoline_step > 0) || std::isnan(here.value)) return;
+    const double part = scene.line_strength * line(x, y, k, here);
+    here.colour = (1 - part) * here.colour + part * scene.line_colour;
+  });
+
+  const std::vector<double> weights = tent(scene.points);
   for (int y = top; y < bottom; ++y) {
     for (int x = left; x < right; ++x) {
       Rgb sum(0, 0, 0);
-      for (int k = 0; k < n; ++k) {
-        Point here = at(x, y, k);
-        const Eigen::Vector2d& p = scene.points[static_cast<std::size_t>(k)];
-        const bool covered = cover_by_arrow(scene, x + p[0], y + p[1], here);
-        if (!covered && scene.isoline_step > 0 && !std::isnan(here.value)) {
-          const double part = scene.line_strength * line(x, y, k, here);
-          here.colour = (1 - part) * here.colour + part * scene.line_colour;
+      auto weight = weights.begin();
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          for (int k = 0; k < n; ++k) sum += *weight++ * traced[index(x + dx, y + dy, k)].colour;
         }
-        sum += here.colour;
       }
-      image.at(x, y) = pixel_of(sum / n);
+      image.at(x, y) = pixel_of(sum);
     }
   }
 }
