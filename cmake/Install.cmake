@@ -23,7 +23,8 @@ if(DSC_WITH_CGAL)
     FILES_MATCHING PATTERN "*.h")
 endif()
 if(DSC_WITH_PICTURES)
-  install(TARGETS dsc_render EXPORT libdscRenderTargets)
+  install(TARGETS dsc_render EXPORT libdscRenderTargets
+    ARCHIVE COMPONENT development LIBRARY COMPONENT library NAMELINK_COMPONENT development)
   install(EXPORT libdscRenderTargets NAMESPACE dsc:: DESTINATION ${_dsc_package})
   install(DIRECTORY libdsc/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/libdsc
     FILES_MATCHING PATTERN "*.h")

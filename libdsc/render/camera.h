@@ -14,8 +14,9 @@ namespace dsc::render {
 /// With z up, azimuth 0 looks from -y ("front", of a patient in LPS the face), 90 from +x
 /// ("right"); elevation 90 from above. `up` may be any axis; the frame turns with it.
 struct View {
-  double azimuth = 30, elevation = 20;
-  std::string up = "z";
+  double azimuth = 30;    ///< around the axis that is up
+  double elevation = 20;  ///< -90 to 90
+  std::string up = "z";   ///< x, y, z, -x, -y or -z
 
   /// Of a name (front, back, left, right, top, bottom, iso) or of "AZIMUTH,ELEVATION".
   /// \throws UsageError that says what is expected.
@@ -28,7 +29,10 @@ struct View {
 
 /// A rectangle of the picture, in pixels from its top left corner.
 struct Rectangle {
-  double left = 0, top = 0, width = 0, height = 0;
+  double left = 0;    ///< of its left side
+  double top = 0;     ///< of its upper side
+  double width = 0;   ///< from left to right
+  double height = 0;  ///< from top to bottom
 };
 
 /// Maps the world to pixels: x from the left, y from the top, z towards the viewer, all to one
@@ -40,6 +44,7 @@ class Camera {
   /// The vertices as large as `area` allows, in its middle.
   Camera(const View& view, const FlatMesh& mesh, const Rectangle& area);
 
+  /// Where a point of the world lies.
   Vec3 operator()(const Vec3& p) const { return scale_ * (turn_ * (p - centre_)) + middle_; }
   /// A direction, in units of the world and the axes of the picture (y down).
   Vec3 turned(const Vec3& v) const { return turn_ * v; }

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Drawing flat things on an image: rectangles, lines, text, with smooth edges.
 #pragma once
 

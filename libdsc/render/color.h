@@ -14,13 +14,17 @@ using Rgb = Vec3;
 /// Lightness 0 to 1, and two opponent axes, green to red and blue to yellow.
 using Lab = Vec3;
 
+/// The other one of the two, of any colour, also of one that no screen shows.
+/// @{
 Rgb rgb_of(const Lab& lab);
 Lab lab_of(const Rgb& rgb);
+/// @}
 /// Of lightness, chroma and hue (degrees).
 Lab lab_of_hue(double lightness, double chroma, double hue);
 
 /// Rounded to bytes; what lies outside 0 to 1 takes the nearer end.
 Pixel pixel_of(const Rgb& rgb);
+/// The light of a stored colour.
 Rgb rgb_of(const Pixel& pixel);
 
 }  // namespace dsc::render

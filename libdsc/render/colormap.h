@@ -17,6 +17,7 @@
 
 namespace dsc::render {
 
+/// A map, made by its name. Copies are cheap enough for a picture, not for a pixel.
 class Colormap {
  public:
   /// \throws UsageError for a name that is not in the table, naming those that are.
@@ -25,6 +26,7 @@ class Colormap {
   /// The colour at t in [0, 1]; beyond, that of the nearer end.
   Rgb operator()(double t) const;
 
+  /// The name that it was made by.
   const std::string& name() const { return name_; }
   /// Whether the middle stands for 0.
   bool diverging() const { return diverging_; }

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Vectors as arrows, spread evenly over the picture.
 #pragma once
 

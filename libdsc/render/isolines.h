@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Lines of constant value, of constant width in the picture: how far a point lies from the nearest
 /// line is what is missing to its value, over how fast values go there in the picture.
 #pragma once

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// What a picture says of its colours: a bar with numbers, or a list of swatches.
 #pragma once
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// How much light comes back from a point of a surface.
 #pragma once
 

@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// What a surface is coloured by: a scalar, a direction, its labels, or nothing.
 #pragma once
 

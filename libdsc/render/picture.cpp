@@ -16,6 +16,7 @@ namespace dsc::render {
 namespace {
 
 constexpr int kTile = 48;
+constexpr Index kBoxBytes = 120;  // of Embree, a quad
 
 void check_mesh(const FlatMesh& mesh) {
   if (mesh.faces() == 0) throw InputError("there is nothing to draw: the surface has no face");
@@ -31,6 +32,10 @@ void check_mesh(const FlatMesh& mesh) {
       throw InputError(fmt::format("the position of vertex {} is not finite", v));
     }
   }
+}
+
+void check_no_arrows(const PictureOptions& options) {
+  if (options.glyphs > 0) throw UsageError("arrows show vectors, and there are none here");
 }
 
 bool uses_true_normals(const FlatMesh& mesh, Shading shading) {
@@ -78,6 +83,8 @@ Picture draw_painted(const FlatMesh& mesh, const Paint& paint, const Field* vect
     }
   }
 
+  // Floats and numbers of the corners twice over, and Embree's boxes around them: measured.
+  context.need("draw", 12 * mesh.vertices() + 4 * mesh.corner_count() + kBoxBytes * mesh.faces());
   context.begin("draw", options.height);
   const Camera camera(options.view, mesh, area);
   const Tracer surface(mesh, camera, context);
@@ -143,6 +150,7 @@ void PictureOptions::check() const {
 Picture draw(const FlatMesh& mesh, const PictureOptions& options, const Context& context) {
   options.check();
   check_mesh(mesh);
+  check_no_arrows(options);
   return draw_painted(mesh, *plain_paint(), nullptr, options, context);
 }
 
@@ -151,9 +159,7 @@ Picture draw(const FlatMesh& mesh, const Field& field, const PictureOptions& opt
   options.check();
   check_mesh(mesh);
   const auto paint = field_paint(mesh, field, options.colormap, options.range);
-  if (options.glyphs > 0 && field.parts.size() != 3) {
-    throw UsageError("arrows show vectors, and " + field.name + " is a scalar field");
-  }
+  if (field.parts.size() != 3) check_no_arrows(options);
   return draw_painted(mesh, *paint, field.parts.size() == 3 ? &field : nullptr, options, context);
 }
 
@@ -167,6 +173,7 @@ Picture draw_labels(const FlatMesh& mesh, std::span<const double> inner,
     throw UsageError(
         fmt::format("{} and {} labels for {} faces", inner.size(), outer.size(), faces));
   }
+  check_no_arrows(options);
   return draw_painted(mesh, *label_paint(inner, outer), nullptr, options, context);
 }
 

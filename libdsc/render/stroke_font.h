@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Letters, digits and signs as strokes: text without a font file.
 #pragma once
 

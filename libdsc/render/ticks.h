@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// Round numbers along a range of values.
 #pragma once
 

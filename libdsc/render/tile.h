@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// A tile of the picture: its points traced, lit, crossed by isolines, and averaged to pixels.
 #pragma once
 

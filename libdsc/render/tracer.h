@@ -1,4 +1,5 @@
 /// \file
+/// \internal
 /// What lies behind a point of the picture: the surface in pixel coordinates, traced by Embree.
 #pragma once
 
