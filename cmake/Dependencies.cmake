@@ -42,6 +42,10 @@ if(DSC_WITH_CGAL)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
   dsc_require(CGAL libcgal-dev 5.5)
 endif()
+if(DSC_WITH_PICTURES)
+  dsc_require(embree libembree-dev 3)
+  dsc_require(PNG libpng-dev)
+endif()
 
 if(DSC_WITH_ITK)  # its targets: libdsc/io/itk/
   find_package(ITK 5 QUIET COMPONENTS ITKIOImageBase)

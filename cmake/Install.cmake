@@ -22,12 +22,22 @@ if(DSC_WITH_CGAL)
   install(DIRECTORY libdsc/truth DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/libdsc
     FILES_MATCHING PATTERN "*.h")
 endif()
+if(DSC_WITH_PICTURES)
+  install(TARGETS dsc_render EXPORT libdscRenderTargets
+    ARCHIVE COMPONENT development LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+  install(EXPORT libdscRenderTargets NAMESPACE dsc:: DESTINATION ${_dsc_package})
+  install(DIRECTORY libdsc/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/libdsc
+    FILES_MATCHING PATTERN "*.h")
+endif()
 install(DIRECTORY libdsc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN truth EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN truth EXCLUDE PATTERN render EXCLUDE)
 
 get_target_property(_dsc_type dsc TYPE)
 if(DSC_WITH_CGAL)
   get_target_property(_dsc_truth_type dsc_truth TYPE)
+endif()
+if(DSC_WITH_PICTURES)
+  get_target_property(_dsc_render_type dsc_render TYPE)
 endif()
 configure_package_config_file(cmake/libdscConfig.cmake.in ${PROJECT_BINARY_DIR}/libdscConfig.cmake
   INSTALL_DESTINATION ${_dsc_package})

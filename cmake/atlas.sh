@@ -22,15 +22,19 @@ declare -A atlas=([aal]=$folder/aal.nii.gz
 
 say "The whole brain as one surface (AAL)"
 run normals "${atlas[aal]}" -o "$out/brain-normals.vtp" --report "$out/brain-normals.json"
-run curvature "${atlas[aal]}" -o "$out/brain-curvature.vtp" --report "$out/brain-curvature.json"
+run curvature "${atlas[aal]}" -o "$out/brain-curvature.vtp" \
+  -o "$out/brain-curvature.png" --range -0.4,0.4 --view -60,20 --report "$out/brain-curvature.json"
 run geodesic "${atlas[aal]}" --source 0,-60,40 -o "$out/brain-distance.vtp" \
   --report "$out/brain-distance.json"
 
 say "Every interface between two regions, and distances that cross their junctions"
 for name in aal harvard-oxford; do
   run geodesic "${atlas[$name]}" --labels all --source 0,-60,40 \
-    -o "$out/$name-distance.vtp" --report "$out/$name-distance.json"
+    -o "$out/$name-distance.vtp" -o "$out/$name-distance.png" --view -60,20 --report "$out/$name-distance.json"
 done
+
+say "Its regions, drawn"
+run surface "${atlas[aal]}" --labels all --view -60,20 -o "$out/aal-regions.png"
 
 say "The atlases"
 printf '%-15s %8s %8s %10s %10s %10s\n' atlas regions faces junctions 'time, s' 'memory, MB'

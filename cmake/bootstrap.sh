@@ -10,6 +10,8 @@
 #   ./cmake/bootstrap.sh test          builds everything, runs every test
 #   ./cmake/bootstrap.sh figures       builds the program, measures the README's table of figures
 #                                      anew and writes it there; real voxels from DSC_TEST_DATA
+#   ./cmake/bootstrap.sh pictures      builds the program and draws the pictures of the README anew, in
+#                                      docs/pictures; spot needs the voxels of DSC_TEST_DATA
 #   ./cmake/bootstrap.sh benchmarks [--quick]
 #                                      measures every stage and whole jobs against what the machine can
 #                                      do and rewrites tests/benchmarks/RESULTS.md, in a quarter of an
@@ -18,7 +20,7 @@
 set -euo pipefail
 
 usage() {
-  sed -n '5,17s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,19s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -27,10 +29,11 @@ say() { printf '== %s\n' "$*"; }
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libexpat1-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
   libtbb-dev libcli11-dev nlohmann-json3-dev)
+picture_packages=(libembree-dev libpng-dev)
 image_packages=(libinsighttoolkit5-dev)
 benchmark_packages=(libbenchmark-dev)
 docs_packages=(libjs-mathjax)
-test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" mricron-data)
+test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${picture_packages[@]}" mricron-data)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -58,6 +61,7 @@ install_missing() {
     [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'
     [[ " $* " != *mathjax* ]] || printf '     %s\n' 'MathJax 2, in /usr/share/javascript/mathjax (the pages alone need no more than these two and CMake)'
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'
+    [[ " $* " != *libembree* ]] || printf '     %s\n' 'Embree 3' 'libpng 1.6'
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
     say "Going on with what is there."
     return
@@ -112,7 +116,7 @@ case $mode in
       input=$(realpath -- "$1")
     fi
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
-    packages=("${library_packages[@]}")
+    packages=("${library_packages[@]}" "${picture_packages[@]}")
     with_itk=()
     case ${input,,} in
       *.nii | *.nii.gz | *.nrrd | *.nhdr | *.mha | *.mhd | *.tif | *.tiff) with_itk=(-DDSC_WITH_ITK=ON) ;;
@@ -120,14 +124,14 @@ case $mode in
     [[ ! -d $input ]] || with_itk=(-DDSC_WITH_ITK=ON)
     ((${#with_itk[@]} == 0)) || packages+=("${image_packages[@]}")
     install_missing "${packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF "${with_itk[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON "${with_itk[@]}"
     exec ./cmake/demo.sh build/release/bin/dsc ${input:+"$input"}
     ;;
   atlas)
     (($# == 0)) || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
-    install_missing "${library_packages[@]}" "${image_packages[@]}" mricron-data
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_ITK=ON
+    install_missing "${library_packages[@]}" "${image_packages[@]}" "${picture_packages[@]}" mricron-data
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON -DDSC_WITH_ITK=ON
     exec ./cmake/atlas.sh build/release/bin/dsc
     ;;
   test)
@@ -144,6 +148,13 @@ case $mode in
     install_missing "${library_packages[@]}"
     configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
     exec ./cmake/figures.sh build/release/bin/dsc
+    ;;
+  pictures)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}" "${picture_packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON
+    exec ./cmake/pictures.sh build/release/bin/dsc
     ;;
   benchmarks)
     (($# == 0)) || [[ $# == 1 && $1 == --quick ]] || usage

@@ -21,7 +21,7 @@ error_of() {
 say "Geodesic distance on the unit sphere, gridstep 0.05"
 for calculus in naive projected; do
   run geodesic shape:sphere,r=1 --gridstep 0.05 --source 0.3,0.5,0.81 --calculus "$calculus" \
-    -o "$out/sphere-$calculus.ply" --report "$out/sphere-$calculus.json"
+    -o "$out/sphere-$calculus.ply" -o "$out/sphere-$calculus.png" --report "$out/sphere-$calculus.json"
 done
 
 if [[ -n $input ]]; then
@@ -34,8 +34,9 @@ else
   source=(--source 0,0,10)
 fi
 say "Normals and distances: $name"
-run normals "${object[@]}" -o "$out/normals.ply" --report "$out/normals.json"
-run geodesic "${object[@]}" "${source[@]}" -o "$out/distance.ply" --report "$out/distance.json"
+run normals "${object[@]}" -o "$out/normals.ply" -o "$out/normals.png" --report "$out/normals.json"
+run geodesic "${object[@]}" "${source[@]}" -o "$out/distance.ply" -o "$out/distance.png" \
+  --report "$out/distance.json"
 
 say "Error of the distance on the unit sphere, against the great circle"
 printf '%-12s %10s %10s\n' calculus mean max
@@ -45,4 +46,4 @@ for calculus in naive projected; do
 done
 
 say "In $out/"
-(cd "$out" && wc -c sphere-{naive,projected}.ply normals.ply distance.ply | sed '$d')
+(cd "$out" && wc -c sphere-{naive,projected}.{ply,png} {normals,distance}.{ply,png} | sed '$d')

@@ -70,13 +70,14 @@ void study_object(const study::Arguments& arguments, const std::string& path) {
   const Eigen::VectorXd reached = distance.array().isFinite().select(distance.array(), 0.).matrix();
   row("distance (0 where the source does not reach)", reached);
 
-  study::write(arguments, "figure_10_" + name + ".vtp",
+  study::write(arguments, "figure_10_" + name,
                {mesh,
                 {dsc::scalar_field("distance", dsc::FieldOn::vertex, distance),
                  dsc::scalar_field("mean_curvature", dsc::FieldOn::vertex, curvature),
                  dsc::scalar_field("mean_curvature_ii", dsc::FieldOn::face, balls.mean),
                  dsc::vector_field("gradient", {"gx", "gy", "gz"}, dsc::FieldOn::face,
-                                   {gradients.data(), gradients.cols()})}});
+                                   {gradients.data(), gradients.cols()})}},
+               study::seen(30, 20));
 }
 
 }  // namespace

@@ -88,10 +88,11 @@ int main(int argc, char** argv) {
     last = rms;
     if (level == 2) {
       const Eigen::VectorXd before = naive, after = exact;
-      study::write(arguments, "figure_3.vtp",
+      study::write(arguments, "figure_3",
                    {surface.flat(),
                     {dsc::scalar_field("naive", dsc::FieldOn::face, before),
-                     dsc::scalar_field("projected", dsc::FieldOn::face, after)}});
+                     dsc::scalar_field("projected", dsc::FieldOn::face, after)}},
+                   study::seen(135, 35, study::from_zero(before)));
     }
   }
   std::puts(

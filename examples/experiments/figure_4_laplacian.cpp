@@ -82,10 +82,11 @@ int main(int argc, char** argv) {
     smoothed.push_back({study::text(h), error(laplacian({}, 0.035 * h, true), f),
                         error(diffused, f), error(heat_kernel.apply(on_faces), on_faces)});
     if (h == 0.05) {
-      study::write(arguments, "figure_4.vtp",
+      study::write(arguments, "figure_4",
                    {surface.flat(),
                     {dsc::scalar_field("projected", dsc::FieldOn::vertex, values),
-                     dsc::scalar_field("diffused", dsc::FieldOn::vertex, diffused)}});
+                     dsc::scalar_field("diffused", dsc::FieldOn::vertex, diffused)}},
+                   study::seen(30, 20, {{-5., 5.}}));
     }
 
     const std::string one_ball = pointwise({}), free = pointwise(study::mercat());

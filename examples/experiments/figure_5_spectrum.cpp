@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
     row("naive", false, {});
     row("projected", true, {});
     row("projected, λ_f = 0", true, study::mercat());
-    if (h == 0.05) study::write_picture(arguments, "figure_5", sphere, surface, fields);
+    if (h == 0.05)
+      study::write_picture(arguments, "figure_5", sphere, surface, fields, study::seen(30, 20));
   }
   std::puts(
       "\nPaper: shows the first ten eigenvectors, without numbers; they are the fields of the "

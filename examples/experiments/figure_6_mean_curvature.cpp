@@ -166,7 +166,8 @@ int main(int argc, char** argv) {
                            {{"naive", scene.curvature(false, kTime, u, {})},
                             {"projected", scene.curvature(true, kTime, u, {})},
                             {"integral_invariant", averaged},
-                            {"exact", scene.truth}});
+                            {"exact", scene.truth}},
+                           study::seen(30, 25, {{scene.truth.minCoeff(), scene.truth.maxCoeff()}}));
     }
   }
   std::puts(

@@ -55,7 +55,8 @@ void on_the_sphere(const study::Arguments& arguments) {
     const std::string free = small ? error(study::mercat()) : "";
     if (known.h == 0.05) {
       study::write_picture(arguments, "figure_7", sphere, surface,
-                           {{"naive", d.naive}, {"projected", d.projected}, {"exact", truth}});
+                           {{"naive", d.naive}, {"projected", d.projected}, {"exact", truth}},
+                           study::seen(30, 35, study::from_zero(truth)));
     }
     std::string two_balls;
     if (small) {
@@ -125,7 +126,8 @@ int main(int argc, char** argv) {
     if (c.h == 0.04 || c.h == 0.4) {
       study::write_picture(
           arguments, std::string("figure_7_") + c.name, c.shape, surface,
-          {{"naive", d.naive}, {"projected", d.projected}, {"exact", truth.distance}});
+          {{"naive", d.naive}, {"projected", d.projected}, {"exact", truth.distance}},
+          study::seen(60, 35, study::from_zero(truth.distance)));
     }
   }
   std::puts(

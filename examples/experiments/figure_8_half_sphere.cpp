@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
                              {{"neumann", distances(mesh, source, dsc::HeatBoundary::neumann)},
                               {"mixed", distances(mesh, source, dsc::HeatBoundary::mixed)},
                               {"exact", truth}},
+                             study::seen(60, 40, study::from_zero(truth)),
                              [](const dsc::Vec3& p) { return p.z() >= 0; });
       }
     }

@@ -142,8 +142,9 @@ void atlas(const study::Arguments& arguments, const std::string& path) {
   const dsc::GeodesicResult result = dsc::geodesic_distance(surface.flat(), {&source, 1});
   const auto finite = result.distance.array().isFinite().count();
   study::write(
-      arguments, "figure_9_atlas.vtp",
-      {surface.flat(), {dsc::scalar_field("distance", dsc::FieldOn::vertex, result.distance)}});
+      arguments, "figure_9_atlas",
+      {surface.flat(), {dsc::scalar_field("distance", dsc::FieldOn::vertex, result.distance)}},
+      study::seen(-60, 20));
   std::printf(
       "\nThe same on the interfaces of %zu regions of the label image given: %lld faces, %lld "
       "linels where "
@@ -215,8 +216,9 @@ int main(int argc, char** argv) {
       const dsc::FlatMesh mesh = scene.surface.flat();
       const dsc::VertexId source = study::nearest(mesh, 4 * scene.sheets.direction(0));
       const Eigen::VectorXd distance = dsc::geodesic_distance(mesh, {&source, 1}).distance;
-      study::write(arguments, "figure_9_h" + study::text(h) + ".vtp",
-                   {mesh, {dsc::scalar_field("distance", dsc::FieldOn::vertex, distance)}});
+      study::write(arguments, "figure_9_h" + study::text(h),
+                   {mesh, {dsc::scalar_field("distance", dsc::FieldOn::vertex, distance)}},
+                   study::seen(40, 30));
     }
   }
   take_apart(arguments, arguments.full ? 0.125 : 0.25);

@@ -18,17 +18,18 @@ namespace study {
 
 using VertexFields = std::vector<std::pair<std::string, Eigen::VectorXd>>;
 
-/// Writes the fields on the surfels as FOLDER/NAME.vtp, and on a mesh of the shape of edges of a
-/// gridstep, or the part of it where `part` is true, as FOLDER/NAME_smooth.vtp.
+/// Writes the fields on the surfels as FOLDER/NAME, and on a mesh of the shape of edges of a
+/// gridstep, or the part of it where `part` is true, as FOLDER/NAME_smooth; see write().
 template <class Part>
 void write_picture(const Arguments& arguments, const std::string& name,
                    const dsc::ImplicitShape& shape, const dsc::DigitalSurface& surface,
-                   const VertexFields& fields, Part&& part) {
+                   const VertexFields& fields, const dsc::render::PictureOptions& options,
+                   Part&& part) {
   dsc::Result digital{surface.flat(), {}};
   for (const auto& [field, values] : fields) {
     digital.fields.push_back(dsc::scalar_field(field, dsc::FieldOn::vertex, values));
   }
-  write(arguments, name + ".vtp", digital);
+  write(arguments, name, digital, options);
 #ifdef STUDY_WITH_TRUTH
   const dsc::truth::TriangleMesh whole =
       dsc::truth::smooth_mesh(shape, {.edge_length = surface.grid().spacing.maxCoeff()}).mesh;
@@ -50,7 +51,7 @@ void write_picture(const Arguments& arguments, const std::string& name,
   for (const auto& [field, values] : back) {
     result.fields.push_back(dsc::scalar_field(field, dsc::FieldOn::vertex, values));
   }
-  write(arguments, name + "_smooth.vtp", result);
+  write(arguments, name + "_smooth", result, options);
 #else
   static_cast<void>(shape);
   static_cast<void>(part);
@@ -59,8 +60,9 @@ void write_picture(const Arguments& arguments, const std::string& name,
 
 inline void write_picture(const Arguments& arguments, const std::string& name,
                           const dsc::ImplicitShape& shape, const dsc::DigitalSurface& surface,
-                          const VertexFields& fields) {
-  write_picture(arguments, name, shape, surface, fields, [](const dsc::Vec3&) { return true; });
+                          const VertexFields& fields, const dsc::render::PictureOptions& options) {
+  write_picture(arguments, name, shape, surface, fields, options,
+                [](const dsc::Vec3&) { return true; });
 }
 
 }  // namespace study

@@ -6,15 +6,21 @@
 #include "libdsc/io/results.h"
 #include "libdsc/normals/radius.h"
 #include "libdsc/normals/surface_normals.h"
+#include "libdsc/render/picture.h"
+#ifdef STUDY_WITH_PICTURES
+#include "libdsc/render/png_file.h"
+#endif
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/implicit_shape.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,10 +126,38 @@ inline dsc::CalculusOptions mercat() {
   return options;
 }
 
-/// Writes FOLDER/NAME.
-inline void write(const Arguments& arguments, const std::string& name, const dsc::Result& result) {
-  dsc::write_result((arguments.out / name).string(), result);
-  arguments.written.push_back(name);
+/// Writes FOLDER/NAME.vtp and, where dsc::render is built, a picture of each field as
+/// FOLDER/NAME_FIELD.png.
+inline void write(const Arguments& arguments, const std::string& name, const dsc::Result& result,
+                  const dsc::render::PictureOptions& options = {}) {
+  dsc::write_result((arguments.out / (name + ".vtp")).string(), result);
+  arguments.written.push_back(name + ".vtp");
+#ifdef STUDY_WITH_PICTURES
+  for (const dsc::Field& field : result.fields) {
+    const std::string picture = name + "_" + field.name + ".png";
+    dsc::render::write_png((arguments.out / picture).string(),
+                           dsc::render::draw(result.mesh, field, options).image);
+    arguments.written.push_back(picture);
+  }
+#else
+  static_cast<void>(options);
+#endif
+}
+
+/// Seen from there (degrees); fields by one range, so that pictures beside each other compare.
+inline dsc::render::PictureOptions seen(double azimuth, double elevation,
+                                        std::optional<std::array<double, 2>> range = {}) {
+  dsc::render::PictureOptions options;
+  options.width = 1000;
+  options.height = 800;
+  options.view = {azimuth, elevation, "z"};
+  options.range = range;
+  return options;
+}
+
+/// From 0 to the largest finite value.
+inline std::array<double, 2> from_zero(const Eigen::VectorXd& values) {
+  return {0., values.array().isFinite().select(values.array(), 0.).maxCoeff()};
 }
 
 /// A table on stdout, and as a curve FOLDER/NAME.csv.

@@ -20,6 +20,32 @@ int thread_count(const Context& context) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+#ifdef DSC_PARALLEL_TBB
+namespace {
+
+template <class Task>
+void run_in_arena(int threads, const Task& task) {
+  // More threads than cores only where they are asked for: tests do, to run chunks side by side.
+  std::optional<oneapi::tbb::global_control> more;
+  const auto kind = oneapi::tbb::global_control::max_allowed_parallelism;
+  const auto wish = static_cast<std::size_t>(threads);
+  if (wish > oneapi::tbb::global_control::active_value(kind)) more.emplace(kind, wish);
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute(task);
+}
+
+}  // namespace
+#endif
+
+void run_within(const Context& context, const std::function<void()>& task) {
+#ifdef DSC_PARALLEL_TBB
+  run_in_arena(thread_count(context), task);
+#else
+  static_cast<void>(context);
+  task();
+#endif
+}
+
 namespace detail {
 namespace {
 
@@ -59,13 +85,9 @@ class Guard {
 #ifdef DSC_PARALLEL_TBB
 
 void dispatch(int threads, Index chunks, Guard& guard) {
-  // More threads than cores only where they are asked for: tests do, to run chunks side by side.
-  std::optional<oneapi::tbb::global_control> more;
-  const auto kind = oneapi::tbb::global_control::max_allowed_parallelism;
-  const auto wish = static_cast<std::size_t>(threads);
-  if (wish > oneapi::tbb::global_control::active_value(kind)) more.emplace(kind, wish);
-  oneapi::tbb::task_arena arena(threads);
-  arena.execute([&] { oneapi::tbb::parallel_for(Index{0}, chunks, [&](Index c) { guard(c); }); });
+  run_in_arena(threads, [&] {
+    oneapi::tbb::parallel_for(Index{0}, chunks, [&](Index c) { guard(c); });
+  });
 }
 
 #else

@@ -27,6 +27,10 @@ void run_chunks(const Context& context, Index chunks, const std::function<void(I
 
 }  // namespace detail
 
+/// Runs a task of a library that has parallel loops on the same back end, so that they take no more
+/// threads than this run gets. Where the back end is another one, the library minds itself.
+void run_within(const Context& context, const std::function<void()>& task);
+
 /// Calls body(first, last) on consecutive ranges of at most `grain` indices that cover [0, n).
 template <class Body>
 void parallel_for(const Context& context, Index n, Index grain, Body&& body) {

@@ -1,6 +1,7 @@
 #include "libdsc/cli/file_checks.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/cli/picture_options.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/results.h"
 #include "libdsc/io/standard_stream.h"
@@ -75,7 +76,9 @@ void check_files(const Options& o) {
                        (files[i] == files[j] ? "" : ", as '" + files[j] + "' too"));
     }
   }
-  for (const std::string& path : o.outputs) check_result_path(path);
+  for (const std::string& path : o.outputs) {
+    is_picture_path(path) ? check_writable(path) : check_result_path(path);
+  }
   if (!o.report.empty()) check_writable(o.report);
 }
 

@@ -12,8 +12,10 @@ std::string help_footer() {
   for (const std::string& line : known_shapes()) text += "  " + line + "\n";
   text +=
       "\nResults: " + result_endings() +
-      "\n"
-      "FORMAT:- is standard input or output: dsc normals vol:- -o ply:- < object.vol\n"
+      ", and .png, a picture
+"
+      "FORMAT:- is standard input or output: dsc normals vol:- -o ply:- < object.vol
+"
       "In .vtp the vectors are the arrays normal (nx, ny, nz) and gradient (gx, gy, gz).\n"
       "With --labels and --between the faces also carry label_inner and label_outer: surfaces run\n"
       "from the smaller label to the larger, 0 is always outside.\n"
@@ -77,6 +79,8 @@ std::string help_footer(Command command) {
              "checkerboard.\n"
              "Examples:\n"
              "  dsc geodesic object.vol --source 10,20,30 -o distance.vtp\n"
+             "  dsc geodesic object.vol --source 10,20,30 -o distance.png --view front --isolines "
+             "20\n"
              "  dsc geodesic object.vol --source-vertex 0 --source-vertex 999 -o distance.csv\n"
              "  dsc geodesic shape:sphere --gridstep 0.1 --source 0.3,0.5,0.81 --calculus naive";
     case Command::spectrum:

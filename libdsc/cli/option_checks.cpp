@@ -5,6 +5,7 @@
 #include "libdsc/cli/file_checks.h"
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
+#include "libdsc/cli/picture_options.h"
 
 #include <filesystem>
 #include <string>
@@ -106,6 +107,7 @@ void check_options(const Options& o) {
   CalculusOptions{o.lambda}.check();
   if (o.curvature_lambda > 0) CalculusOptions{o.curvature_lambda}.check();
   check_have_effect(o);
+  check_picture_options(o);
   check_files(o);
 }
 

@@ -3,6 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/cli/numbers.h"
 #include "libdsc/cli/option_kinds.h"
+#include "libdsc/cli/picture_options.h"
 #include "libdsc/io/mesh_reader.h"
 #include "libdsc/io/results.h"
 
@@ -99,10 +100,13 @@ void add_input(CLI::App& app, Options& o) {
 
 void add_run(CLI::App& app, Options& o, bool writes) {
   if (writes) {
-    app.add_option("-o,--output", o.outputs,
-                   "write the result here; again for more (" + result_endings() + ")")
+    app.add_option(
+           "-o,--output", o.outputs,
+           "write the result here; again for more (" + result_endings() + ", .png: a picture)")
         ->type_name("FILE")
         ->allow_extra_args(false);
+    name_group(app, "Run");
+    add_picture(app, o);
   }
   app.add_option("--report", o.report, "write counts, timings, memory and errors here as JSON")
       ->type_name("FILE");

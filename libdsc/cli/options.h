@@ -7,6 +7,7 @@
 #include "libdsc/io/volume_source.h"
 #include "libdsc/normals/curvature.h"
 #include "libdsc/normals/integral_invariant.h"
+#include "libdsc/render/picture.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/label_volume.h"
 
@@ -83,6 +84,10 @@ struct Options {
   CurvatureForm form = CurvatureForm::centred;
   bool on_vertices = false;     ///< ii: averages to vertices
   double curvature_lambda = 0;  ///< laplacian: 0 is no stabilisation
+
+  // how pictures are drawn
+  render::PictureOptions picture;
+  std::string picture_field;  ///< empty: the first one of the result
 
   // how it is run and what is written
   std::vector<std::string> outputs;

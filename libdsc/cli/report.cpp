@@ -105,6 +105,17 @@ Json json_of(const HeatReport& heat) {
           {"poisson_iterations", heat.poisson_iterations}};
 }
 
+Json json_of(const PictureReport& picture) {
+  Json json = {{"file", picture.path}};
+  if (!picture.field.empty()) json["field"] = picture.field;
+  if (picture.colormap.empty()) return json;
+  json["colormap"] = picture.colormap;
+  json["range"] = {number(picture.low), number(picture.high)};
+  json["isoline_step"] = number(picture.isoline_step);
+  json["infinite"] = picture.infinite;
+  return json;
+}
+
 Json json_of(const Timings& t) {
   return {{"read", number(t.read)},         {"extract", number(t.extract)},
           {"normals", number(t.normals)},   {"smooth", number(t.smooth)},
@@ -155,6 +166,9 @@ void write_report(const std::string& path, const Options& options, const Report&
     json["further_errors"].push_back(json_of(name, error));
   }
   json["outputs"] = report.outputs;
+  for (const PictureReport& picture : report.pictures) {
+    json["pictures"].push_back(json_of(picture));
+  }
   json["warnings"] = report.warnings;
   json["timings_s"] = json_of(report.timings);
   json["peak_memory_bytes"] = report.peak_memory_bytes;

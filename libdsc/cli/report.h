@@ -83,6 +83,16 @@ struct SpectrumReport {
   std::optional<Index> checkerboards;  ///< left out below the last one, where there may be any
 };
 
+/// Of a .png output.
+struct PictureReport {
+  std::string path;
+  std::string field;         ///< what is shown, as its key says; empty: the surface alone
+  std::string colormap;      ///< empty: no scalar is shown
+  double low = 0, high = 0;  ///< the ends of its colour bar
+  double isoline_step = 0;   ///< 0: no isolines
+  Index infinite = 0;        ///< values drawn grey
+};
+
 /// Wall-clock seconds; 0 for a stage that was not needed. The stages sum to the total, but for what
 /// lies between them. `check` measures results, against known answers where there are any.
 struct Timings {
@@ -109,6 +119,7 @@ struct Report {
   std::vector<std::pair<std::string, ErrorNorms>> further_errors;  ///< of other quantities
   std::vector<std::string> warnings;
   std::vector<std::string> outputs;
+  std::vector<PictureReport> pictures;
   Timings timings;
   Index peak_memory_bytes = 0;
 };

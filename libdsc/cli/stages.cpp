@@ -1,6 +1,8 @@
 #include "libdsc/cli/stages.h"
 
 #include "libdsc/calculus/embedding.h"
+#include "libdsc/cli/picture_options.h"
+#include "libdsc/cli/picture_output.h"
 #include "libdsc/io/world_result.h"
 #include "libdsc/normals/surface_normals.h"
 
@@ -232,6 +234,11 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
   if (scene.polygons) keep_fields(*scene.polygons, labelled, run);
   const WorldResult placed(labelled, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
+    if (is_picture_path(path)) {
+      write_picture(path, scene, result, placed.get(), run);
+      run.report.outputs.push_back(path);
+      continue;
+    }
     const std::vector<std::string> left_out = write_result(path, placed.get(), run.context);
     for (const std::string& field : left_out) {
       run.warn("'" + path + "' has no room for " + field + "; write .ply or .vtp as well");

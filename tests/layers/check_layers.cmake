@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/PrivateHeaders.cmake)
 
 # A layer uses itself and what comes before it here.
-set(layers base voxels surface normals calculus solve algorithms truth io cli)
+set(layers base voxels surface normals calculus solve algorithms truth io render cli)
 
 # Pairs: headers, and the only files (as <layer>/<file>) that may include them.
 set(restricted
@@ -18,6 +18,8 @@ set(restricted
   "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
   "^thread$"                                      "^(base|cli)/"
   "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"
+  "^embree"                                       "^render/tracer\\.cpp$"
+  "^(png|pngconf|pnglibconf)\\.h$"                "^render/png_file\\.cpp$"
   # What dsc::dsc links privately stays out of the headers that are installed.
   "^(muParser|metis\\.h|fmt/|nlohmann/|CLI/|zlib\\.h|tbb/|oneapi/)"  "(\\.cpp$|^cli/)")
 

@@ -3,6 +3,9 @@
 #ifdef WITH_CHOLMOD
 #include <libdsc/solve/cholmod_solver.h>
 #endif
+#ifdef WITH_PICTURES
+#include <libdsc/render/picture.h>
+#endif
 #include <libdsc/surface/digital_surface.h>
 #include <libdsc/surface/extract.h>
 #ifdef WITH_TRUTH
@@ -41,6 +44,12 @@ int main() {
 #endif
 #ifdef WITH_TRUTH
   if (dsc::truth::smooth_mesh(dsc::Torus(), {0.2}).counts.euler != 0) return 1;
+#endif
+#ifdef WITH_PICTURES
+  dsc::render::PictureOptions options;
+  options.width = options.height = 64;
+  const dsc::render::Image image = dsc::render::draw(surface.flat(), options).image;
+  if (image.at(32, 32) == image.at(0, 0)) return 1;
 #endif
   return right ? 0 : 1;
 }

@@ -3,3 +3,4 @@
 #include <zlib.h>
 #include "libdsc/cli/options.h"  // wrong
 #include "libdsc/truth/mesh.h"  // wrong
+#include "libdsc/render/picture.h"  // wrong
