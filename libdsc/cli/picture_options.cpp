@@ -4,11 +4,10 @@
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/numbers.h"
 #include "libdsc/cli/option_kinds.h"
+#include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
 namespace dsc::cli {
 namespace {
@@ -72,12 +71,7 @@ void read_count(const std::string& text, const char* option, int most, int& targ
 
 }  // namespace
 
-bool is_picture_path(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".png";
-}
+bool is_picture_path(const std::string& path) { return detail::extension_of(path) == ".png"; }
 
 void add_picture(CLI::App& app, Options& o) {
   using Text = const std::string&;
