@@ -8,6 +8,7 @@
 # where the next run begins; what it finds wrong comes to build/fuzz/runs/TARGET-…; the output goes to
 # build/fuzz/runs/TARGET.log. Ends with 1 where anything was found.
 #
+# Timeouts are of the clock on the wall: on a machine that does much else beside, say -- -timeout=60.
 # DSC_FUZZ_BIN names a folder with fuzzers built before, DSC_FUZZ_RUNS one for the results.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -24,6 +25,8 @@ done
 [[ ${1:-} != -- ]] || shift
 ((${#targets[@]})) || targets=(raw npy longvol vol off obj stl vox ply expression shape om)
 
+# Freed memory is kept for a while, so that its use is seen; the default of 256 MB costs time only here.
+export ASAN_OPTIONS=quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 runs=${DSC_FUZZ_RUNS:-$PWD/build/fuzz/runs}
 bin=${DSC_FUZZ_BIN:-}
 if [[ -z $bin ]]; then
