@@ -42,6 +42,13 @@ double mean_edge(const FlatMesh& mesh) {
   return sum / static_cast<double>(mesh.corner_count());
 }
 
+/// An assignment would copy the matrix.
+void put(LaplaceSystem from, LaplaceSystem& to) {
+  to.L.swap(from.L);
+  to.mass.swap(from.mass);
+  to.clamped_faces = from.clamped_faces;
+}
+
 SparseMatrix negated(const SparseMatrix& L, const Context& context) {
   context.need("assemble", matrix_bytes(L));
   SparseMatrix A = L;
@@ -195,14 +202,14 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   data->mesh = mesh;
   data->options = options;
   context.begin("assemble");
-  data->system = assemble_laplacian(mesh, options.calculus, context);
+  put(assemble_laplacian(mesh, options.calculus, context), data->system);
   data->weight = (data->system.mass.array() > 0).select(data->system.mass, 1.);
   data->components = connected_components(mesh);
   Components classes = kernel_classes(mesh, options.calculus.stabilization);
   if (options.calculus.stabilization == Stabilization::mercat) {
     CalculusOptions stabilised = options.calculus;
     stabilised.stabilization = Stabilization::de_goes;
-    data->diffused = assemble_laplacian(mesh, stabilised, context);
+    put(assemble_laplacian(mesh, stabilised, context), data->diffused);
     data->filter.emplace(mesh, options.calculus, context);
   }
   if (options.boundary == HeatBoundary::mixed) {

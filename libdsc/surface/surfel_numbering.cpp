@@ -95,7 +95,7 @@ SurfelNumbering::SurfelNumbering(const Cells& cells, const Context& context)
           "surface: one slice of the volume has more faces than 32-bit ids can number");
     }
     // How many words have cells is not known before; the next slice takes about as much as this.
-    context.need("scan", static_cast<Index>(slices_[slice].size() * sizeof(CellWord)));
+    context.need("scan", static_cast<Index>(slices_[slice].capacity() * sizeof(CellWord)));
     face_base_[slice + 1] = scan.faces();
     vertex_base_[slice + 1] = scan.vertices();
     context.advance(1);

@@ -28,11 +28,10 @@ void run_spectrum(Run& run) {
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene, run);
 
-  LaplaceSystem system;
-  {
+  const LaplaceSystem system = [&] {
     const Stopwatch watch(run.report.timings.assemble);
-    system = assemble_laplacian(mesh, calculus_options(run), run.context);
-  }
+    return assemble_laplacian(mesh, calculus_options(run), run.context);
+  }();
   note_calculus(system.clamped_faces, run);
 
   const bool mercat = run.options.stabilisation == Stabilization::mercat;
