@@ -20,13 +20,14 @@ Index filled_bytes(Index vertices, Index faces, bool with_labels) {
 /// Two edges a face, of two halfedges each.
 Index edge_bytes(Index faces) { return 2 * 2 * 16 * faces; }
 
-/// What finish() takes at most beside both: a face per side a halfedge in a list; a vertex its id,
-/// its leader and its pointel. Where vertices are split, there are two more sets of corners, and as
-/// many vertices as umbrellas, of three corners each.
-Index linked_bytes(Index vertices, Index faces) {
-  constexpr Index kVertex = 4 + 4 + 4;
-  constexpr Index kUmbrella = kVertex + 24 + 4;
-  return kVertex * vertices + (4 * 4 + 2 * 16 + kUmbrella * 4 / 3) * faces;
+/// What finish() takes beside both: a halfedge a side in a list; a vertex its set, its leader, its
+/// id.
+Index linked_bytes(Index vertices, Index faces) { return (4 + 4 + 4) * vertices + 4 * 4 * faces; }
+
+/// The same for `further` vertices that share a pointel: leader, pointel, umbrella, id and
+/// position. Where they are more than there is room for, the positions of all others move.
+Index split_bytes(Index vertices, Index further) {
+  return (3 * 4 + 4 + 24) * further + (further > vertices / 16 ? (24 + 4) * vertices : 0);
 }
 
 }  // namespace
@@ -97,6 +98,8 @@ DigitalSurface SurfaceBuilder::finish(Adjacency adjacency, Glue glue, const Cont
   const topology::MeshVertices vertices =
       topology::number_mesh_vertices(corners(), pointels, opposite(), junctions_, context);
   counts.pinched_vertices = vertices.pinched;
+  context.need("link",
+               split_bytes(pointels, static_cast<Index>(vertices.leaders.size()) - pointels));
   context.advance(1);
 
   SurfaceMesh& mesh = surface_.mesh();
