@@ -5,6 +5,7 @@
 #include "libdsc/cli/picture_output.h"
 #include "libdsc/io/world_result.h"
 #include "libdsc/normals/surface_normals.h"
+#include "libdsc/page/page.h"
 
 #include <algorithm>
 #include <limits>
@@ -232,8 +233,14 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
   Result labelled = result;
   labels.append_to(labelled.fields);
   if (scene.polygons) keep_fields(*scene.polygons, labelled, run);
+  labelled.mesh.normals = scene.polygons ? scene.polygons->view().normals : scene.surface.normals();
   const WorldResult placed(labelled, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
+    if (is_page_path(path)) {
+      write_page(path, placed.get(), run.context);
+      run.report.outputs.push_back(path);
+      continue;
+    }
     if (is_picture_path(path)) {
       write_picture(path, scene, result, placed.get(), run);
       run.report.outputs.push_back(path);
