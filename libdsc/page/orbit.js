@@ -16,7 +16,7 @@ class Orbit {
   /** The first view, from in front and above, z up. */
   reset() {
     this.target = new THREE.Vector3();
-    this.distance = this.fitting = 1.55 / Math.tan(kFieldOfView / 2 * Math.PI / 180);
+    this.distance = 1.38 / Math.tan(kFieldOfView / 2 * Math.PI / 180);
     const eye = new THREE.Matrix4().lookAt(
         new THREE.Vector3(0.55, -1, 0.5), new THREE.Vector3(), new THREE.Vector3(0, 0, 1));
     this.rotation = new THREE.Quaternion().setFromRotationMatrix(eye);

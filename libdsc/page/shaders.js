@@ -71,12 +71,17 @@ void main() {
   // Derivatives before any branch that pixels of one face take differently.
   vec3 own = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
   float cover = lines.x > 0.0 ? lineCover() : 0.0;
+  // Of a face seen from its edge, derivatives are no measure: the sides of steps would be specks.
+  cover *= smoothstep(0.05, 0.25, abs(dot(own, normalize(vSeen))));
   if (colouring == 1 && vValue > -100.0) color = mix(color, lineColor.rgb, lineColor.a * cover);
   if (shading > 0) {
     vec3 eye = normalize(-vSeen);
     vec3 n = own;
     if (dot(n, eye) < 0.0) n = -n;
-    if (shading == 2) n = gl_FrontFacing ? normalize(vNormal) : -normalize(vNormal);
+    if (shading == 2) n = normalize(vNormal);
+    // The back is seen where the normal agrees that it is: between steps, specks of it shine through.
+    bool inside = !gl_FrontFacing && (shading == 1 || dot(n, eye) < 0.0);
+    if (shading == 2 && inside) n = -n;
     // Light from the eye keeps colours comparable, a second one from above shows the shape. A face
     // that looks at the eye has its field's colour.
     float front = max(dot(n, eye), 0.0);
@@ -84,7 +89,7 @@ void main() {
     float side = 0.5 + 0.5 * dot(n, above);
     float facing = 0.5 + 0.5 * dot(eye, above);
     color *= mix(0.42, 1.0, front) * (1.0 + 0.4 * (side - facing));
-    if (!gl_FrontFacing) color *= cutShade;
+    if (inside) color *= cutShade;
   }
   gl_FragColor = vec4(color, 1.0);
 }`;
