@@ -166,6 +166,13 @@ void add_calculus(CLI::App& app, Options& o, bool laplacian) {
   name_group(app, "Calculus");
 }
 
+void add_compare(CLI::App& app, Options& o) {
+  add_choice(app, "--compare", o.compare_naive, {{"naive", true}},
+             "compute the result by the naive calculus too; its field is called NAME_naive, and a "
+             "page shows both");
+  name_group(app, "Calculus");
+}
+
 void add_sources(CLI::App& app, Options& o) {
   app.add_option_function<std::vector<std::string>>(
          "--source",

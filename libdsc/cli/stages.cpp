@@ -1,5 +1,6 @@
 #include "libdsc/cli/stages.h"
 
+#include "libdsc/base/error.h"
 #include "libdsc/calculus/embedding.h"
 #include "libdsc/cli/picture_options.h"
 #include "libdsc/cli/picture_output.h"
@@ -154,6 +155,16 @@ FlatMesh flat_mesh(const Scene& scene, const Run& run) {
   if (!scene.polygons) return flat_mesh(scene.surface, run);
   FlatMesh mesh = scene.polygons->view();
   if (!run.projected()) mesh.normals = {};
+  return mesh;
+}
+
+std::optional<FlatMesh> mesh_to_compare(FlatMesh mesh, const Run& run) {
+  if (!run.options.compare_naive) return {};
+  if (!mesh.has_normals()) {
+    throw UsageError("--compare naive: '" + run.options.input +
+                     "' has no normals, so that its calculus is the naive one; leave it out");
+  }
+  mesh.normals = {};
   return mesh;
 }
 
