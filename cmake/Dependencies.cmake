@@ -47,6 +47,9 @@ if(DSC_WITH_PICTURES)
   dsc_require(PNG libpng-dev)
 endif()
 
+if(DSC_WITH_PAGE AND NOT DSC_THREE_JS)
+  string(APPEND _dsc_missing "\n  three.min.js of three.js, as DSC_THREE_JS (Debian: libjs-three)")
+endif()
 if(DSC_WITH_ITK)  # its targets: libdsc/io/itk/
   find_package(ITK 5 QUIET COMPONENTS ITKIOImageBase)
   if(NOT ITK_FOUND)

@@ -28,12 +28,12 @@ say() { printf '== %s\n' "$*"; }
 
 # Library packages, by their names in Debian. Tools are looked for in PATH first.
 library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libexpat1-dev libmetis-dev libmuparser-dev libfmt-dev libspectra-dev
-  libtbb-dev libcli11-dev nlohmann-json3-dev)
+  libtbb-dev libcli11-dev nlohmann-json3-dev libjs-three)
 picture_packages=(libembree-dev libpng-dev)
 image_packages=(libinsighttoolkit5-dev)
 benchmark_packages=(libbenchmark-dev)
 docs_packages=(libjs-mathjax)
-test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${picture_packages[@]}" mricron-data)
+test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${picture_packages[@]}" mricron-data chromium)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -56,8 +56,8 @@ install_missing() {
   if ! command -v apt-get >/dev/null; then
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'Expat' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
-      'nlohmann-json'
-    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5'
+      'nlohmann-json' 'three.js r111'
+    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5' 'Chromium'
     [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'
     [[ " $* " != *mathjax* ]] || printf '     %s\n' 'MathJax 2, in /usr/share/javascript/mathjax (the pages alone need no more than these two and CMake)'
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'

@@ -36,7 +36,7 @@ fi
 say "Normals and distances: $name"
 run normals "${object[@]}" -o "$out/normals.ply" -o "$out/normals.png" --report "$out/normals.json"
 run geodesic "${object[@]}" "${source[@]}" -o "$out/distance.ply" -o "$out/distance.png" \
-  --report "$out/distance.json"
+  -o "$out/distance.html" --report "$out/distance.json"
 
 say "Error of the distance on the unit sphere, against the great circle"
 printf '%-12s %10s %10s\n' calculus mean max
@@ -46,4 +46,4 @@ for calculus in naive projected; do
 done
 
 say "In $out/"
-(cd "$out" && wc -c sphere-{naive,projected}.{ply,png} {normals,distance}.{ply,png} | sed '$d')
+(cd "$out" && wc -c sphere-{naive,projected}.{ply,png} {normals,distance}.{ply,png} distance.html | sed '$d')

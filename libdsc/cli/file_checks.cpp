@@ -5,6 +5,7 @@
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/results.h"
 #include "libdsc/io/standard_stream.h"
+#include "libdsc/page/page.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -77,7 +78,11 @@ void check_files(const Options& o) {
     }
   }
   for (const std::string& path : o.outputs) {
-    is_picture_path(path) ? check_writable(path) : check_result_path(path);
+    if (is_page_path(path)) {
+      check_page_path(path);
+    } else {
+      is_picture_path(path) ? check_writable(path) : check_result_path(path);
+    }
   }
   if (!o.report.empty()) check_writable(o.report);
 }

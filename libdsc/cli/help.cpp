@@ -12,7 +12,8 @@ std::string help_footer() {
   for (const std::string& line : known_shapes()) text += "  " + line + "\n";
   text +=
       "\nResults: " + result_endings() +
-      ", and .png, a picture\n"
+      ", .png, a picture,\n"
+      "and .html, a page that any browser opens: the surface to turn, colour, cut and read\n"
       "FORMAT:- is standard input or output: dsc normals vol:- -o ply:- < object.vol\n"
       "In .vtp the vectors are the arrays normal (nx, ny, nz) and gradient (gx, gy, gz).\n"
       "With --labels and --between the faces also carry label_inner and label_outer: surfaces run\n"

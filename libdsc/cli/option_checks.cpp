@@ -25,6 +25,11 @@ void check_have_effect(const Options& o) {
         "--stabilisation mercat leaves checkerboards as they are, and half of a point source is "
         "one; choose another to diffuse it");
   }
+  if (o.compare_naive && !o.projected) {
+    throw UsageError(
+        "--compare naive has no effect with --calculus naive, which it would be compared with; "
+        "leave one of them out");
+  }
   const bool balls = o.estimator == Estimator::integral_invariant;
   for (const char* option : {"--estimator", "--radius", "--centre"}) {
     if (!o.given(option)) continue;

@@ -100,9 +100,9 @@ void add_input(CLI::App& app, Options& o) {
 
 void add_run(CLI::App& app, Options& o, bool writes) {
   if (writes) {
-    app.add_option(
-           "-o,--output", o.outputs,
-           "write the result here; again for more (" + result_endings() + ", .png: a picture)")
+    app.add_option("-o,--output", o.outputs,
+                   "write the result here; again for more (" + result_endings() +
+                       ", .png: a picture, .html: a page)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     name_group(app, "Run");
@@ -163,6 +163,13 @@ void add_calculus(CLI::App& app, Options& o, bool laplacian) {
     add_positive(app, "--lambda", o.lambda,
                  "weight of the stabilisation de-goes, best in (0, 1] (default: 0.25)");
   }
+  name_group(app, "Calculus");
+}
+
+void add_compare(CLI::App& app, Options& o) {
+  add_choice(app, "--compare", o.compare_naive, {{"naive", true}},
+             "compute the result by the naive calculus too; its field is called NAME_naive, and a "
+             "page shows both");
   name_group(app, "Calculus");
 }
 

@@ -16,6 +16,8 @@ void add_run(CLI::App& app, Options& o, bool writes);
 void add_normals(CLI::App& app, Options& o);
 /// The same, and how operators are made from them, the Laplacian too or not.
 void add_calculus(CLI::App& app, Options& o, bool laplacian);
+/// The result of another calculus as a further field.
+void add_compare(CLI::App& app, Options& o);
 /// Points and vertices as sources. The caller names the group.
 void add_sources(CLI::App& app, Options& o);
 

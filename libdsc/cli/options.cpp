@@ -75,6 +75,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->required();
   name_group(gradient, "Function");
   add_calculus(gradient, o, false);
+  add_compare(gradient, o);
   add_run(gradient, o, true);
 
   CLI::App& diffuse = add_command(app, o, Command::diffuse, "let heat spread from sources");
@@ -83,6 +84,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->required();
   name_group(diffuse, "Heat");
   add_calculus(diffuse, o, true);
+  add_compare(diffuse, o);
   add_run(diffuse, o, true);
 
   CLI::App& geodesic =
@@ -101,6 +103,7 @@ void add_commands(CLI::App& app, Options& o) {
              "how heat is solved for: at once, or band after band along its front (default: auto)");
   name_group(geodesic, "Distance");
   add_calculus(geodesic, o, true);
+  add_compare(geodesic, o);
   add_run(geodesic, o, true);
 
   CLI::App& spectrum = add_command(app, o, Command::spectrum,
@@ -125,6 +128,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->type_name("T");
   name_group(laplacian, "Function");
   add_calculus(laplacian, o, true);
+  add_compare(laplacian, o);
   add_run(laplacian, o, true);
 
   CLI::App& poisson =
@@ -139,6 +143,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->type_name("EXPR");
   name_group(poisson, "Equation");
   add_calculus(poisson, o, true);
+  add_compare(poisson, o);
   add_run(poisson, o, true);
 }
 

@@ -64,6 +64,7 @@ struct Options {
   BallCentre centre = BallCentre::surfel;
   std::optional<double> radius;  ///< world units
   bool projected = true;         ///< false: the naive calculus
+  bool compare_naive = false;    ///< the result of the naive calculus too
   bool calculus_given = false;   ///< else a mesh file decides by its normals
   Stabilization stabilisation = Stabilization::de_goes;
   double lambda = 0.25;

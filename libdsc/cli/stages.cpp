@@ -1,10 +1,12 @@
 #include "libdsc/cli/stages.h"
 
+#include "libdsc/base/error.h"
 #include "libdsc/calculus/embedding.h"
 #include "libdsc/cli/picture_options.h"
 #include "libdsc/cli/picture_output.h"
 #include "libdsc/io/world_result.h"
 #include "libdsc/normals/surface_normals.h"
+#include "libdsc/page/page.h"
 
 #include <algorithm>
 #include <limits>
@@ -156,6 +158,16 @@ FlatMesh flat_mesh(const Scene& scene, const Run& run) {
   return mesh;
 }
 
+std::optional<FlatMesh> mesh_to_compare(FlatMesh mesh, const Run& run) {
+  if (!run.options.compare_naive) return {};
+  if (!mesh.has_normals()) {
+    throw UsageError("--compare naive: '" + run.options.input +
+                     "' has no normals, so that its calculus is the naive one; leave it out");
+  }
+  mesh.normals = {};
+  return mesh;
+}
+
 CalculusOptions calculus_options(const Run& run) {
   CalculusOptions options;
   options.lambda = run.options.lambda;
@@ -232,8 +244,14 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
   Result labelled = result;
   labels.append_to(labelled.fields);
   if (scene.polygons) keep_fields(*scene.polygons, labelled, run);
+  labelled.mesh.normals = scene.polygons ? scene.polygons->view().normals : scene.surface.normals();
   const WorldResult placed(labelled, scene.input.world, run.context);
   for (const std::string& path : run.options.outputs) {
+    if (is_page_path(path)) {
+      write_page(path, placed.get(), run.context);
+      run.report.outputs.push_back(path);
+      continue;
+    }
     if (is_picture_path(path)) {
       write_picture(path, scene, result, placed.get(), run);
       run.report.outputs.push_back(path);

@@ -11,6 +11,7 @@
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/voxels/expression.h"
 
+#include <optional>
 #include <vector>
 
 namespace dsc::cli {
@@ -52,6 +53,25 @@ CalculusOptions calculus_options(const Run& run);
 
 /// The faces whose normal the calculus tilts back (embedding.h), where no operator tells.
 Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options);
+
+/// The same mesh for the naive calculus, where the options ask for its result too (--compare).
+/// \throws UsageError where `mesh` is naive already: a file without normals.
+std::optional<FlatMesh> mesh_to_compare(FlatMesh mesh, const Run& run);
+
+/// What `compute` returns, its time noted as that of a check whatever it notes itself.
+template <class Compute>
+auto compared(Run& run, const Compute& compute) {
+  Timings& timings = run.report.timings;
+  const Timings before = timings;
+  double seconds = 0;
+  auto result = [&] {
+    const Stopwatch watch(seconds);
+    return compute();
+  }();
+  timings = before;
+  timings.check += seconds;
+  return result;
+}
 
 /// Puts the calculus into the report.
 void note_calculus(Index clamped_faces, Run& run);

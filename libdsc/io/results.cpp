@@ -151,13 +151,17 @@ void check_result_path(const std::string& path) {
   check_writable(path);
 }
 
+void check_result(const Result& result, const Context& context) {
+  check_mesh(result.mesh, context);
+  for (const Field& field : result.fields) check_field(field, result.mesh, context);
+  check_names_differ(result);
+}
+
 std::vector<std::string> write_result(const std::string& path, const Result& result,
                                       const Context& context) {
   const Format format = format_of(path);
   check_result_path(path);
-  check_mesh(result.mesh, context);
-  for (const Field& field : result.fields) check_field(field, result.mesh, context);
-  check_names_differ(result);
+  check_result(result, context);
 
   std::vector<std::string> left_out;
   const auto leave_out_all = [&] {

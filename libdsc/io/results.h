@@ -73,6 +73,9 @@ std::string result_endings();
 /// check_writable() of atomic_file.h.
 void check_result_path(const std::string& path);
 
+/// What every writer refuses of a result. \throws UsageError, InputError as write_result().
+void check_result(const Result& result, const Context& context = {});
+
 /// Writes `result` in the form that the ending of `path` names (upper or lower case).
 /// \return the names of the fields that the form could not hold (see above).
 /// \throws UsageError as check_result_path(), or where a field has another number of values than

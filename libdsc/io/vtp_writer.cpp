@@ -1,55 +1,13 @@
 // ParaView's XML PolyData. The arrays follow the markup as one block of base64 each, so that the
 // file is well-formed XML; a block is a 64-bit byte count and the data, encoded as one stream.
 #include "libdsc/io/atomic_file.h"
+#include "libdsc/io/base64.h"
 #include "libdsc/io/result_writers.h"
 
-#include <array>
 #include <limits>
 
 namespace dsc::detail {
 namespace {
-
-/// Two base64 digits for each of the 4096 values of 12 bits.
-const std::array<std::array<char, 2>, 4096>& digit_pairs() {
-  static const auto table = [] {
-    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::array<std::array<char, 2>, 4096> pairs{};
-    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {digits[i >> 6], digits[i & 63]};
-    return pairs;
-  }();
-  return table;
-}
-
-/// Appends the base64 form of `bytes`, padded where their number is no multiple of 3.
-void append_base64(std::string& out, const std::string& bytes) {
-  const auto& pairs = digit_pairs();
-  const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
-  const std::size_t whole = bytes.size() / 3;
-  const std::size_t start = out.size();
-  out.resize(start + (bytes.size() + 2) / 3 * 4);
-  char* to = out.data() + start;
-  for (std::size_t i = 0; i < whole; ++i, p += 3, to += 4) {
-    const unsigned bits =
-        static_cast<unsigned>(p[0]) << 16 | static_cast<unsigned>(p[1]) << 8 | p[2];
-    const auto& high = pairs[bits >> 12];
-    const auto& low = pairs[bits & 4095];
-    to[0] = high[0];
-    to[1] = high[1];
-    to[2] = low[0];
-    to[3] = low[1];
-  }
-  const std::size_t rest = bytes.size() - 3 * whole;
-  if (rest > 0) {
-    const unsigned bits =
-        static_cast<unsigned>(p[0]) << 16 | (rest == 2 ? static_cast<unsigned>(p[1]) << 8 : 0U);
-    const auto& high = pairs[bits >> 12];
-    const auto& low = pairs[bits & 4095];
-    to[0] = high[0];
-    to[1] = high[1];
-    to[2] = rest == 2 ? low[0] : '=';
-    to[3] = '=';
-  }
-}
 
 /// One array of the file: what the markup says about it and how its elements become bytes.
 struct Block {

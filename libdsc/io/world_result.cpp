@@ -20,7 +20,6 @@ Eigen::Matrix3Xd mapped(Vec3View from, const Map& map, const Context& context) {
 
 WorldResult::WorldResult(const Result& result, const RigidMap& map, const Context& context)
     : mapped_(result) {
-  mapped_.mesh.normals = {};
   mapped_.mesh.surfels = {};  // no longer along the axes
   if (map.is_identity()) return;
   positions_ = mapped(result.mesh.positions, map, context);
@@ -35,13 +34,17 @@ WorldResult::WorldResult(const Result& result, const RigidMap& map, const Contex
     });
     mapped_.mesh.corners = corners_;
   }
-  vectors_.reserve(mapped_.fields.size());  // the fields look at its elements' memory
+  vectors_.reserve(mapped_.fields.size() + 1);  // the fields look at its elements' memory
+  const auto turned = [&](Vec3View vectors) -> Vec3View {
+    vectors_.push_back(mapped(
+        vectors, [&](const Vec3& v) { return map.turned(v); }, context));
+    return {vectors_.back().data(), vectors_.back().cols()};
+  };
+  if (mapped_.mesh.has_normals()) mapped_.mesh.normals = turned(mapped_.mesh.normals);
   for (Field& field : mapped_.fields) {
     if (field.parts.size() != 3) continue;
     const Vec3View values{field.values.data(), static_cast<Index>(field.values.size() / 3)};
-    vectors_.push_back(mapped(
-        values, [&](const Vec3& v) { return map.turned(v); }, context));
-    field.values = {vectors_.back().data(), field.values.size()};
+    field.values = {turned(values).data, field.values.size()};
   }
 }
 

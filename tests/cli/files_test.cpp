@@ -1,5 +1,6 @@
 // The files of a command line: the input survives, nothing is written twice, what cannot be
 // written is refused at once.
+#include "libdsc/page/page.h"
 #include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
@@ -98,6 +99,20 @@ TEST(Files, WhatCannotBeWrittenIsFoundBeforeTheInputIsRead) {
       GTEST_SKIP() << "another user cannot run the program here";
     }
     expect_refused(outcome, 3, {"shut/b.ply", "no file can be created"});
+  }
+}
+
+TEST(Files, APageIsAResultWhereTheBuildHasPages) {
+  const Folder folder;
+  const Outcome run = run_dsc({"geodesic", "shape:sphere", "--gridstep", "0.2", "--source", "0,0,1",
+                               "-o", folder / "d.html", "-o", folder / "d.ply"});
+  if (has_pages()) {
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read_file(folder / "d.html").find("<!doctype html>"), 0U);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"d.html", "d.ply"}));
+  } else {
+    expect_refused(run, 2, {"d.html", "DSC_WITH_PAGE", "libjs-three"});
+    EXPECT_TRUE(folder.names().empty());
   }
 }
 

@@ -6,14 +6,14 @@ cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/PrivateHeaders.cmake)
 
 # A layer uses itself and what comes before it here.
-set(layers base voxels surface normals calculus solve algorithms truth io render cli)
+set(layers base voxels surface normals calculus solve algorithms truth io render page cli)
 
 # Pairs: headers, and the only files (as <layer>/<file>) that may include them.
 set(restricted
   "^OpenMesh/"                                    "^(surface/|io/|calculus/on_mesh\\.h$)"
   "^CGAL/"                                        "^truth/[^/]*\\.cpp$"
   "^libdsc/truth/"                                "^truth/"
-  "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|sys/.*|zlib\\.h)$"  "^(io|cli)/"
+  "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|sys/.*|zlib\\.h)$"  "^(io|page|cli)/"
   "^(itk|gdcm)"                                   "^io/itk/"
   "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
   "^thread$"                                      "^(base|cli)/"

@@ -79,8 +79,9 @@ void warn_of(const GeodesicReport& report, Run& run) {
   }
 }
 
+/// `naive` is empty where it was not asked for.
 void measure_error(const Scene& scene, const FlatMesh& mesh, const std::vector<VertexId>& sources,
-                   const Eigen::VectorXd& distance, Run& run) {
+                   const Eigen::VectorXd& distance, const Eigen::VectorXd& naive, Run& run) {
   if (!scene.input.shape) return;
   Eigen::Matrix3Xd points(3, static_cast<Index>(sources.size()));
   for (Index i = 0; i < points.cols(); ++i) {
@@ -91,6 +92,9 @@ void measure_error(const Scene& scene, const FlatMesh& mesh, const std::vector<V
   if (!known || measured_shape(scene, run) == nullptr) return;
   run.report.error_name = "against the exact distance";
   run.report.error = error_norms(distance, *known);
+  if (naive.size() > 0) {
+    run.report.further_errors.emplace_back("distance_naive", error_norms(naive, *known));
+  }
 }
 
 }  // namespace
@@ -98,19 +102,26 @@ void measure_error(const Scene& scene, const FlatMesh& mesh, const std::vector<V
 void run_geodesic(Run& run) {
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene, run);
+  const std::optional<FlatMesh> naive_mesh = mesh_to_compare(mesh, run);
   const std::vector<VertexId> sources = find_sources(scene, run);
   const GeodesicResult result = solve(mesh, sources, run);
 
   note_calculus(result.report.clamped_faces, run);
   run.report.heat = heat_report(result.report);
   warn_of(result.report, run);
+  Eigen::VectorXd naive;
+  if (naive_mesh) {
+    naive = compared(run, [&] { return solve(*naive_mesh, sources, run).distance; });
+  }
   {
     const Stopwatch watch(run.report.timings.check);
     run.report.result_name = "distance";
     run.report.result = statistics_of(result.distance);
-    measure_error(scene, mesh, sources, result.distance, run);
+    measure_error(scene, mesh, sources, result.distance, naive, run);
   }
-  write_outputs(scene, {mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}}, run);
+  Result fields{mesh, {scalar_field("distance", FieldOn::vertex, result.distance)}};
+  if (naive_mesh) fields.fields.push_back(scalar_field("distance_naive", FieldOn::vertex, naive));
+  write_outputs(scene, fields, run);
 }
 
 }  // namespace dsc::cli

@@ -46,17 +46,23 @@ void run_gradient(Run& run) {
   const Expression f(run.options.function);  // a typing error shows at once
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene, run);
-  Eigen::Matrix3Xd gradients;
+  const std::optional<FlatMesh> naive_mesh = mesh_to_compare(mesh, run);
+  Eigen::VectorXd phi;
+  Eigen::Matrix3Xd gradients, naive;
   {
     const Stopwatch watch(run.report.timings.solve);
-    const Eigen::VectorXd phi = sample(f, scene, run);
+    phi = sample(f, scene, run);
     gradients = face_gradients(mesh, phi, calculus_options(run), run.context);
     note_calculus(count_clamped_faces(mesh, calculus_options(run)), run);
+  }
+  if (naive_mesh) {
+    naive = compared(
+        run, [&] { return face_gradients(*naive_mesh, phi, calculus_options(run), run.context); });
   }
   {
     const Stopwatch watch(run.report.timings.check);
     const Eigen::VectorXd lengths = lengths_of(gradients);
-    if (!lengths.allFinite()) {
+    if (!lengths.allFinite() || !naive.allFinite()) {
       throw InputError("--function '" + run.options.function +
                        "': its gradient passes the range of doubles; scale it down");
     }
@@ -64,11 +70,14 @@ void run_gradient(Run& run) {
     run.report.result = statistics_of(lengths);
     measure_error(f, scene, gradients, run);
   }
-  write_outputs(scene,
-                {mesh,
-                 {vector_field("gradient", {"gx", "gy", "gz"}, FieldOn::face,
-                               {gradients.data(), gradients.cols()})}},
-                run);
+  Result fields{mesh,
+                {vector_field("gradient", {"gx", "gy", "gz"}, FieldOn::face,
+                              {gradients.data(), gradients.cols()})}};
+  if (naive_mesh) {
+    fields.fields.push_back(vector_field("gradient_naive", {"gx_naive", "gy_naive", "gz_naive"},
+                                         FieldOn::face, {naive.data(), naive.cols()}));
+  }
+  write_outputs(scene, fields, run);
 }
 
 }  // namespace dsc::cli

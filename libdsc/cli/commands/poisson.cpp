@@ -66,6 +66,48 @@ double remove_means(Eigen::VectorXd& density, const Eigen::VectorXd& mass, const
   return means.cwiseAbs().maxCoeff();
 }
 
+struct PoissonAnswer {
+  Eigen::VectorXd u;
+  PoissonReport report;
+  Index clamped_faces = 0;
+};
+
+/// `density` is the right-hand side, `values` hold on the boundary where `fix` is set.
+PoissonAnswer solve(const FlatMesh& mesh, const Conditions& conditions, Eigen::VectorXd density,
+                    const Eigen::VectorXd& values, bool fix, Run& run) {
+  Timings& timings = run.report.timings;
+  PoissonOptions options;
+  options.calculus = calculus_options(run);
+  options.solver.method = SolverMethod::automatic;
+  options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
+    const Stopwatch watch(timings.factorize);
+    return make_spd_solver(std::move(A), solver, context);
+  };
+  std::optional<PoissonProblem> problem;
+  {
+    const Stopwatch watch(timings.assemble);
+    problem.emplace(mesh, conditions.fixed, options, run.context);
+  }
+  timings.assemble -= timings.factorize;
+
+  PoissonAnswer answer;
+  answer.clamped_faces = problem->clamped_faces();
+  PoissonReport& report = answer.report;
+  report.fixed_vertices = static_cast<Index>(conditions.fixed.size());
+  report.free_components = conditions.free_count;
+  if (fix) report.fixed_vertices -= conditions.free_count;
+  report.removed_mean = remove_means(density, problem->mass(), conditions);
+  Solution solution;
+  {
+    const Stopwatch watch(timings.solve);
+    solution = problem->solve(problem->mass().cwiseProduct(density), values);
+  }
+  if (fix) remove_means(solution.x, problem->mass(), conditions);
+  report.relative_residual = solution.relative_residual;
+  answer.u = std::move(solution.x);
+  return answer;
+}
+
 /// Where the vertices digitise a shape, its points closest to them; else the vertices.
 Eigen::Matrix3Xd sample_points(const Scene& scene, Run& run) {
   if (scene.input.shape) return smooth_surface(scene, run).positions;
@@ -80,6 +122,7 @@ void run_poisson(Run& run) {
   if (!run.options.fix.empty()) fix.emplace(run.options.fix);
   const Scene scene = prepare_scene(run);
   const FlatMesh mesh = flat_mesh(scene, run);
+  const std::optional<FlatMesh> naive_mesh = mesh_to_compare(mesh, run);
   const Eigen::Matrix3Xd positions = sample_points(scene, run);
   const Vec3View points{positions.data(), positions.cols()};
   Timings& timings = run.report.timings;
@@ -91,38 +134,20 @@ void run_poisson(Run& run) {
     density = sample(rhs, points, scene, run);
     if (fix) values = sample(*fix, points, scene, run);
   }
-  PoissonOptions options;
-  options.calculus = calculus_options(run);
-  options.solver.method = SolverMethod::automatic;
-  options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
-    const Stopwatch watch(timings.factorize);
-    return make_spd_solver(std::move(A), solver, context);
-  };
-  std::optional<PoissonProblem> problem;
-  {
-    const Stopwatch watch(timings.assemble);
-    problem.emplace(mesh, conditions.fixed, options, run.context);
+  const PoissonAnswer answer = solve(mesh, conditions, density, values, fix.has_value(), run);
+  note_calculus(answer.clamped_faces, run);
+  run.report.poisson = answer.report;
+  Eigen::VectorXd naive;
+  if (naive_mesh) {
+    naive = compared(run, [&] {
+      return solve(*naive_mesh, conditions, density, values, fix.has_value(), run).u;
+    });
   }
-  timings.assemble -= timings.factorize;
-  note_calculus(problem->clamped_faces(), run);
-
-  PoissonReport report;
-  report.fixed_vertices = static_cast<Index>(conditions.fixed.size());
-  report.free_components = conditions.free_count;
-  if (fix) report.fixed_vertices -= conditions.free_count;
-  report.removed_mean = remove_means(density, problem->mass(), conditions);
-  Solution solution;
-  {
-    const Stopwatch watch(timings.solve);
-    solution = problem->solve(problem->mass().cwiseProduct(density), values);
-  }
-  if (fix) remove_means(solution.x, problem->mass(), conditions);
-  report.relative_residual = solution.relative_residual;
-  run.report.poisson = report;
   run.report.result_name = "solution";
-  run.report.result = statistics_of(solution.x);
-  write_outputs(scene, {scene.mesh(), {scalar_field("solution", FieldOn::vertex, solution.x)}},
-                run);
+  run.report.result = statistics_of(answer.u);
+  Result fields{scene.mesh(), {scalar_field("solution", FieldOn::vertex, answer.u)}};
+  if (naive_mesh) fields.fields.push_back(scalar_field("solution_naive", FieldOn::vertex, naive));
+  write_outputs(scene, fields, run);
 }
 
 }  // namespace dsc::cli

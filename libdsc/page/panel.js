@@ -1,0 +1,314 @@
+// The controls: what they say goes into the view, what is picked comes out as a table.
+
+const byId = (id) => document.getElementById(id);
+
+class Panel {
+  constructor(model, view, maps, wishes) {
+    Object.assign(this, {model, view, maps});
+    this.fillChoices();
+    this.obey(wishes);
+    this.listen();
+    this.showCounts();
+    this.update();
+  }
+
+  fillChoices() {
+    const {scalars} = this.model;
+    const options = scalars.map((scalar, i) => new Option(scalar.name, String(i)));
+    byId('field').replaceChildren(...options, new Option('none', '-1'));
+    byId('beside').replaceChildren(new Option('nothing', '-1'),
+                                   ...options.map((option) => option.cloneNode(true)));
+    // The naive field belongs beside the projected one.
+    const compared = Math.max(0, scalars.findIndex((scalar) => this.naiveOf(scalar) >= 0));
+    byId('field').value = scalars.length > 0 ? String(compared) : '-1';
+    byId('beside').value = String(this.naiveOf(scalars[compared]));
+    const names = this.maps.filter((map) => map.name !== 'labels').map((map) => map.name);
+    byId('map').replaceChildren(new Option('by the field', ''), ...names.map((n) => new Option(n)));
+    if (!this.model.normals) byId('shading').querySelector('[value=estimated]').remove();
+  }
+
+  /** The number of the scalar that the naive calculus gives in place of this one, or -1. */
+  naiveOf(scalar) {
+    if (!scalar) return -1;
+    const name = scalar.name.replace(/\|?$/, (end) => `_naive${end}`);
+    return this.model.scalars.findIndex((other) => other.name === name);
+  }
+
+  /** Sets controls by the page's address: #field=heat&beside=heat_naive&isolines=20&theme=dark … */
+  obey(wishes) {
+    for (const [id, wish] of wishes) {
+      const control = byId(id);
+      if (!control || !control.matches('select, input')) continue;
+      if (control.type === 'checkbox') {
+        control.checked = wish === 'on';
+      } else if (control.tagName === 'SELECT') {
+        const option = [...control.options].find((o) => o.text === wish || o.value === wish);
+        if (option) control.value = option.value;
+      } else {
+        control.value = wish;
+      }
+    }
+  }
+
+  listen() {
+    const {view} = this;
+    byId('controls').addEventListener('input', (event) => {
+      if (event.target.id === 'vertex') return;
+      if (['field', 'beside', 'share'].includes(event.target.id)) this.clearRange();
+      if (event.target.id === 'field' && byId('beside').value !== '-1') this.followField();
+      this.update();
+    });
+    byId('controls').addEventListener('submit', (event) => event.preventDefault());
+    byId('vertex').addEventListener('change', () => this.choose(byId('vertex').valueAsNumber));
+    byId('all').addEventListener('click', () => this.setRange(null));
+    byId('middle').addEventListener('click', () => this.setRange('middle'));
+    byId('home').addEventListener('click', () => view.orbit.reset());
+    byId('fold').addEventListener('click', () => this.fold());
+    const scheme = window.matchMedia('(prefers-color-scheme: dark)');
+    scheme.addEventListener('change', () => this.update());
+    let down = null;
+    view.canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
+    view.canvas.addEventListener('pointerup', (event) => {
+      const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
+      if (still && event.button === 0) this.pickAt(event.clientX, event.clientY);
+    });
+    view.canvas.addEventListener('keydown', (event) => {
+      if (event.key === 'Enter') this.pickMiddle();
+      if (event.key === 'Escape') this.show(null);
+    });
+    view.drawn = () => this.placeCaptions();
+  }
+
+  /** Another field's naive one stands beside it, where that of the last one stood. */
+  followField() {
+    const naive = this.naiveOf(this.shown()[0]);
+    if (naive >= 0) byId('beside').value = String(naive);
+  }
+
+  fold() {
+    const folded = document.body.classList.toggle('folded');
+    byId('fold').setAttribute('aria-expanded', String(!folded));
+    byId('fold').textContent = folded ? 'Controls' : 'Hide';
+    this.view.request();
+  }
+
+  /** The scalars of the panes, the first perhaps null. */
+  shown() {
+    const of = (id) => this.model.scalars[Number(byId(id).value)] || null;
+    return of('beside') ? [of('field'), of('beside')] : [of('field')];
+  }
+
+  clearRange() {
+    byId('low').value = byId('high').value = '';
+  }
+
+  setRange(kind) {
+    this.clearRange();
+    if (kind) {
+      const ranges = this.measured().map((scalar) => scalar[kind]);
+      byId('low').value = Math.min(...ranges.map((r) => r.low)).toPrecision(4);
+      byId('high').value = Math.max(...ranges.map((r) => r.high)).toPrecision(4);
+    }
+    this.update();
+  }
+
+  /** The scalars shown that have a size. */
+  measured() {
+    return this.shown().filter((scalar) => scalar && !scalar.labels);
+  }
+
+  /** Both panes' range where they share one; a half that is not typed in is the fields'. */
+  rangeOf(scalars) {
+    let low = Math.min(...scalars.map((s) => s.range.low));
+    let high = Math.max(...scalars.map((s) => s.range.high));
+    const diverging = this.mapOf(scalars).diverging;
+    if (diverging) {
+      high = Math.max(Math.abs(low), Math.abs(high));
+      low = -high;
+    }
+    const typed = [byId('low'), byId('high')].map((input) => input.valueAsNumber);
+    if (Number.isFinite(typed[0])) low = typed[0];
+    if (Number.isFinite(typed[1])) high = typed[1];
+    if (!(low < high)) high = low + (Math.abs(low) || 1) * 1e-6;
+    return {low, high};
+  }
+
+  /** Signed values, of which neither sign is a trifle, get a diverging map. */
+  mapOf(scalars) {
+    const named = (name) => this.maps.find((map) => map.name === name);
+    if (byId('map').value) return named(byId('map').value);
+    const low = Math.min(...scalars.map((s) => s.range.low));
+    const high = Math.max(...scalars.map((s) => s.range.high));
+    const signed = low < -0.05 * high && high > -0.05 * low;
+    return this.maps.find((map) => map.diverging === signed && map.name !== 'labels');
+  }
+
+  update() {
+    const {view} = this;
+    const shown = this.shown();
+    const theme = byId('theme').value;
+    document.documentElement.dataset.theme = theme;
+    view.setPaneCount(shown.length);
+    const measured = this.measured();
+    const shared = shown.length === 2 && byId('share').checked && measured.length === 2;
+    for (const id of ['low', 'high', 'all', 'middle', 'map']) byId(id).disabled = measured.length === 0;
+    const when = {two: measured.length === 2, cut: byId('clip').value !== ''};
+    for (const element of document.querySelectorAll('[data-when]')) {
+      element.hidden = !when[element.dataset.when];
+    }
+    this.captions = shown.map((scalar, i) => {
+      const surface = view.panes[i];
+      surface.show(scalar);
+      surface.shadeBy(byId('shading').value);
+      if (!scalar) return {scalar};
+      if (scalar.labels) {
+        const map = this.maps.find((m) => m.name === 'labels');
+        surface.colourBy(map, scalar.range.low, scalar.range.high, 0);
+        return {scalar, map};
+      }
+      const scalars = shared ? measured : [scalar];
+      const map = this.mapOf(scalars);
+      const {low, high} = this.rangeOf(scalars);
+      const count = byId('isolines').valueAsNumber || 0;
+      const step = count > 0 ? roundStep(high - low, count) : 0;
+      surface.colourBy(map, low, high, step);
+      return {scalar, map, low, high, step};
+    });
+    this.clip();
+    this.captionElements = this.captions.map((caption) => captionOf(caption));
+    byId('captions').replaceChildren(...this.captionElements);
+    byId('lines').textContent = this.lineText();
+    this.show(this.view.picked);
+    view.request();
+  }
+
+  lineText() {
+    const steps = [...new Set(this.captions.filter((c) => c.step && c.scalar.on === 'vertex')
+        .map((c) => textOf(c.step)))];
+    if (steps.length > 0) return `every ${steps.join(', ')}`;
+    return this.measured().some((s) => s.on === 'vertex') ? 'none' : 'of vertex fields only';
+  }
+
+  /** The plane of the controls. */
+  clip() {
+    const axis = ['x', 'y', 'z'].indexOf(byId('clip').value);
+    let plane = null;
+    if (axis >= 0) {
+      const sign = byId('flip').checked ? -1 : 1;
+      const place = byId('place').valueAsNumber * this.model.half[axis];
+      const normal = [0, 0, 0];
+      normal[axis] = sign;
+      plane = {normal, offset: sign * place};
+      const world = this.model.centre[axis] + this.model.radius * place;
+      byId('cut').textContent = `${byId('clip').value} ${sign < 0 ? '<' : '>'} ${textOf(world, 4)} is hidden`;
+    }
+    this.view.plane = plane;
+    for (const surface of this.view.panes) surface.clipBy(plane);
+  }
+
+  /** Each caption at the bottom of its pane. */
+  placeCaptions() {
+    this.view.rectangles().forEach((r, i) => {
+      const style = this.captionElements[i].style;
+      style.left = `${r.x + r.width / 2}px`;
+      style.top = `${r.y + r.height}px`;
+      style.width = `${Math.min(420, r.width - 48)}px`;
+    });
+  }
+
+  pickAt(x, y) {
+    const start = performance.now();
+    this.show(this.view.pick(x, y));
+    this.pickTime = performance.now() - start;
+  }
+
+  pickMiddle() {
+    const r = this.view.rectangles()[0];
+    this.pickAt(r.x + r.width / 2, r.y + r.height / 2);
+  }
+
+  /** Reads a vertex by its number. */
+  choose(vertex) {
+    const known = Number.isInteger(vertex) && vertex >= 0 && vertex < this.model.vertices;
+    this.show(known ? {face: -1, vertex} : null);
+  }
+
+  /** The table of what is picked; null: nothing is. */
+  show(picked) {
+    const {model} = this;
+    this.view.picked = picked;
+    const rows = [];
+    const add = (name, value) => rows.push([name, value]);
+    if (picked) {
+      add('vertex', String(picked.vertex));
+      ['x', 'y', 'z'].forEach((name, axis) => add(name, textOf(model.coordinate(picked.vertex, axis))));
+      const values = (on, i) => {
+        for (const scalar of model.scalars) {
+          if (scalar.on === on) add(scalar.name, textOf(scalar.at(i)));
+        }
+      };
+      values('vertex', picked.vertex);
+      if (picked.face >= 0) {
+        add('face', String(picked.face));
+        values('face', picked.face);
+      }
+    }
+    byId('reading').replaceChildren(...rows.map(([name, value]) => {
+      const row = document.createElement('tr');
+      const head = document.createElement('th');
+      head.scope = 'row';
+      head.textContent = name;
+      const cell = document.createElement('td');
+      cell.textContent = value;
+      row.append(head, cell);
+      return row;
+    }));
+    byId('hint').hidden = rows.length > 0;
+    byId('vertex').value = picked ? picked.vertex : '';
+    this.view.drawMarks();
+  }
+
+  showCounts() {
+    const count = (n, one, more) => `${n.toLocaleString('en').replace(/,/g, '\u202f')} ${n === 1 ? one : more}`;
+    byId('counts').textContent = `${count(this.model.faces, 'face', 'faces')}, ` +
+        count(this.model.vertices, 'vertex', 'vertices');
+    byId('vertex').max = String(this.model.vertices - 1);
+  }
+}
+
+/** The name of a field above its colours and their numbers. */
+function captionOf({scalar, map, low, high}) {
+  const caption = document.createElement('figure');
+  if (!scalar) return caption;
+  const element = (parent, name, text = '', className = '') => {
+    const child = document.createElement(name);
+    child.textContent = text;
+    if (className) child.className = className;
+    parent.append(child);
+    return child;
+  };
+  element(caption, 'figcaption', scalar.name);
+  if (scalar.labels) {
+    const most = 24;
+    const list = element(caption, 'div', '', 'labels');
+    scalar.distinct.slice(0, most).forEach((value, i) => {
+      element(list, 'span', textOf(value)).style.setProperty('--swatch', map.css(i % 256));
+    });
+    const more = scalar.distinct.length - most;
+    if (more > 0) element(list, 'em', `and ${more} more`);
+    return caption;
+  }
+  const bar = element(caption, 'div', '', 'bar');
+  bar.style.background = map.gradient;
+  const scale = element(caption, 'div', '', 'scale');
+  for (const tick of ticksOf(low, high, 5)) {
+    const mark = element(scale, 'span', textOf(tick, 6));
+    mark.style.left = `${100 * (tick - low) / (high - low)}%`;
+  }
+  const {range} = scalar;
+  const size = high - low;
+  if (range.low < low - 1e-6 * size) bar.classList.add('below');
+  if (range.high > high + 1e-6 * size) bar.classList.add('above');
+  if (range.infinite) element(scale, 'em', 'grey: infinite');
+  return caption;
+}
