@@ -334,11 +334,15 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
   return result;
 }
 
+GeodesicOptions for_one_query(GeodesicOptions options) {
+  if (options.method == HeatMethod::automatic) options.method = HeatMethod::bands;
+  options.poisson.direct_limit = std::min(options.poisson.direct_limit, kDirectLimitOnce);
+  return options;
+}
+
 GeodesicResult geodesic_distance(const FlatMesh& mesh, std::span<const VertexId> sources,
                                  const GeodesicOptions& options, const Context& context) {
-  GeodesicOptions once = options;
-  if (once.method == HeatMethod::automatic) once.method = HeatMethod::bands;
-  return GeodesicSolver(mesh, once, context).distance(sources, context);
+  return GeodesicSolver(mesh, for_one_query(options), context).distance(sources, context);
 }
 
 }  // namespace dsc

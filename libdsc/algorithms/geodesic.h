@@ -107,7 +107,11 @@ class GeodesicSolver {
   std::unique_ptr<const Data> data_;
 };
 
-/// The same for a single set of sources; `automatic` means bands.
+/// The options for a solver that is asked once: what `automatic` chooses for many queries does not
+/// pay then. Heat goes in bands, and Poisson's equation is iterated from kDirectLimitOnce on.
+GeodesicOptions for_one_query(GeodesicOptions options);
+
+/// The same for a single set of sources, with for_one_query(options).
 GeodesicResult geodesic_distance(const FlatMesh& mesh, std::span<const VertexId> sources,
                                  const GeodesicOptions& options = {}, const Context& context = {});
 

@@ -6,6 +6,7 @@
 #include "libdsc/io/results.h"
 #include "libdsc/io/standard_stream.h"
 #include "libdsc/page/page.h"
+#include "libdsc/render/glb_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -81,7 +82,8 @@ void check_files(const Options& o) {
     if (is_page_path(path)) {
       check_page_path(path);
     } else {
-      is_picture_path(path) ? check_writable(path) : check_result_path(path);
+      const bool drawn = is_picture_path(path) || render::is_glb_path(path);
+      drawn ? check_writable(path) : check_result_path(path);
     }
   }
   if (!o.report.empty()) check_writable(o.report);

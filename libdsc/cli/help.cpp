@@ -12,7 +12,8 @@ std::string help_footer() {
   for (const std::string& line : known_shapes()) text += "  " + line + "\n";
   text +=
       "\nResults: " + result_endings() +
-      ", .png, a picture,\n"
+      ", .glb, coloured,\n"
+      "for viewers of 3-D models, .png, a picture,\n"
       "and .html, a page that any browser opens: the surface to turn, colour, cut and read\n"
       "FORMAT:- is standard input or output: dsc normals vol:- -o ply:- < object.vol\n"
       "In .vtp the vectors are the arrays normal (nx, ny, nz) and gradient (gx, gy, gz).\n"

@@ -102,7 +102,7 @@ void add_run(CLI::App& app, Options& o, bool writes) {
   if (writes) {
     app.add_option("-o,--output", o.outputs,
                    "write the result here; again for more (" + result_endings() +
-                       ", .png: a picture, .html: a page)")
+                       ", .glb: for viewers, .png: a picture, .html: a page)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     name_group(app, "Run");

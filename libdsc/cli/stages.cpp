@@ -7,6 +7,7 @@
 #include "libdsc/io/world_result.h"
 #include "libdsc/normals/surface_normals.h"
 #include "libdsc/page/page.h"
+#include "libdsc/render/glb_file.h"
 
 #include <algorithm>
 #include <limits>
@@ -257,7 +258,9 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
       run.report.outputs.push_back(path);
       continue;
     }
-    const std::vector<std::string> left_out = write_result(path, placed.get(), run.context);
+    const std::vector<std::string> left_out =
+        render::is_glb_path(path) ? render::write_glb(path, placed.get(), run.context)
+                                  : write_result(path, placed.get(), run.context);
     for (const std::string& field : left_out) {
       run.warn("'" + path + "' has no room for " + field + "; write .ply or .vtp as well");
     }

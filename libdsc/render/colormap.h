@@ -2,12 +2,11 @@
 /// Colour maps, each a path through OKLab that is walked at constant speed, so that equal steps of
 /// the value look like equal steps of colour.
 ///
-/// | name | for | path |
-/// | --- | --- | --- |
-/// | lagoon | values of one sign | dark violet-blue, teal, green, pale yellow; lighter all the way
-/// | | ember | values of one sign | dark violet, crimson, orange, pale yellow; lighter all the way
-/// | | grey | values of one sign | dark to light | | polar | signed values | blue, near white, red;
-/// both arms equally light and equally strong |
+/// - `lagoon`, for values of one sign: dark violet-blue, teal, green, pale yellow, lighter all the
+///   way;
+/// - `ember`, likewise: dark violet, crimson, orange, pale yellow;
+/// - `grey`, likewise: dark to light;
+/// - `polar`, for signed values: blue, near white, red, both arms equally light and strong.
 #pragma once
 
 #include "libdsc/render/color.h"
@@ -20,7 +19,7 @@ namespace dsc::render {
 /// A map, made by its name. Copies are cheap enough for a picture, not for a pixel.
 class Colormap {
  public:
-  /// \throws UsageError for a name that is not in the table, naming those that are.
+  /// \throws UsageError for a name that is not one of these, naming those that are.
   explicit Colormap(const std::string& name);
 
   /// The colour at t in [0, 1]; beyond, that of the nearer end.

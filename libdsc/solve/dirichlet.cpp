@@ -121,7 +121,7 @@ NeumannSolver::NeumannSolver(SparseMatrix A, Components components, const Solver
   const bool crossed = crosses(A, components_);
   SolverOptions used = options;
   if (crossed) used.method = SolverMethod::ldlt;
-  if (factory || resolve(used.method, A.rows()) == SolverMethod::ldlt) {
+  if (factory || resolve(used, A.rows()) == SolverMethod::ldlt) {
     direct_.emplace(A, components_.lowest, used, context, factory);
   } else {  // it needs no fixed vertex, and converges faster without
     A.makeCompressed();

@@ -153,7 +153,7 @@ WideVector SpdSolver::solve_wide(const WideVector& b) const {
 
 std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& options,
                                            const Context& context) {
-  if (resolve(options.method, A.rows()) == SolverMethod::ldlt) {
+  if (resolve(options, A.rows()) == SolverMethod::ldlt) {
     return make_ldlt_solver(take(A), options, context);
   }
   return std::make_unique<MultigridSpd>(std::move(A), options, context);

@@ -26,19 +26,24 @@ struct Solution {
 
 /// Which of the library's solvers.
 enum class SolverMethod {
-  automatic,  ///< ldlt up to kDirectLimit unknowns, then multigrid, and ldlt where that stalls
+  automatic,  ///< ldlt up to direct_limit unknowns, then multigrid, and ldlt where that stalls
   ldlt,       ///< sparse L D Lᵀ with a nested dissection order: exact, reusable
   multigrid,  ///< conjugate gradients preconditioned by multigrid: linear memory
 };
 
-/// From here on a direct factorization of a surface's Laplacian costs more than iterating.
+/// From here on a direct factorization of a surface's Laplacian costs more than iterating, however
+/// often it serves.
 inline constexpr Index kDirectLimit = 150000;
+/// The same where it serves once.
+inline constexpr Index kDirectLimitOnce = 15000;
 
 /// How systems are solved, and how well.
 struct SolverOptions {
   SolverMethod method = SolverMethod::ldlt;  ///< see SolverMethod
   /// The relative residual that every solve must reach; in (0, 1).
   double tolerance = 1e-9;
+  /// Of `automatic`: unknowns.
+  Index direct_limit = kDirectLimit;
 };
 
 /// A system ready to be solved. A solver of your own derives from it and writes correct().
@@ -89,10 +94,10 @@ class SpdSolver {
   double tolerance_;
 };
 
-/// The method that `method` stands for on n unknowns: automatic resolved.
-constexpr SolverMethod resolve(SolverMethod method, Index n) {
-  if (method != SolverMethod::automatic) return method;
-  return n <= kDirectLimit ? SolverMethod::ldlt : SolverMethod::multigrid;
+/// The method that `options` stand for on n unknowns: automatic resolved.
+constexpr SolverMethod resolve(const SolverOptions& options, Index n) {
+  if (options.method != SolverMethod::automatic) return options.method;
+  return n <= options.direct_limit ? SolverMethod::ldlt : SolverMethod::multigrid;
 }
 
 /// A solver of the method asked for. `A` is n x n, symmetric positive definite, both triangles

@@ -33,9 +33,7 @@ GeodesicOptions geodesic_options(const Run& run) {
 }
 
 GeodesicResult solve(const FlatMesh& mesh, const std::vector<VertexId>& sources, Run& run) {
-  GeodesicOptions options = geodesic_options(run);
-  // One query: what GeodesicSolver would choose for many does not pay.
-  if (options.method == HeatMethod::automatic) options.method = HeatMethod::bands;
+  const GeodesicOptions options = for_one_query(geodesic_options(run));
   Timings& timings = run.report.timings;
   std::optional<GeodesicSolver> solver;
   {

@@ -79,6 +79,7 @@ PoissonAnswer solve(const FlatMesh& mesh, const Conditions& conditions, Eigen::V
   PoissonOptions options;
   options.calculus = calculus_options(run);
   options.solver.method = SolverMethod::automatic;
+  options.solver.direct_limit = kDirectLimitOnce;
   options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
     const Stopwatch watch(timings.factorize);
     return make_spd_solver(std::move(A), solver, context);

@@ -47,7 +47,7 @@ std::string results(const std::string& benchmarks, const std::string& program,
   std::string text = fmt::format(
       "# Results\n\nWritten by `./cmake/bootstrap.sh benchmarks`, in {:.0f} s, on {} cores of an "
       "{}.\n"
-      "Explanations are kept in [notes.md](notes.md).\n\n",
+      "Explanations are kept in `notes.md`.\n\n",
       took.count(), std::thread::hardware_concurrency(), processor());
   text += "## Reach\n\n" + reach_table(figures, jobs) + "\n" + notes + "\n";
   text += "## Ceilings\n\n" + ceilings_table(figures) + "\n";
