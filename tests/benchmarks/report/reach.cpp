@@ -73,11 +73,12 @@ void geodesic(const Figures& figures, Rows& rows) {
   };
   seconds("geodesic distance, spot 512³, after normals, first source: ≤ 3.5 s",
           "geodesic_first/n:0", 3.5);
-  seconds("the same, a further source: ≤ 2 s", "geodesic_further/n:0", 2.);
+  seconds("the same, a further source: ≤ 2 s, or what the next row has", "geodesic_further/n:0",
+          2.);
   const Figure* prepare = figures.find("geodesic_prepare/n:0");
   const Figure* prepared = figures.find("geodesic_prepared/n:0");
   if (prepare != nullptr && prepared != nullptr) {
-    rows.add("or, after a preparation: ≤ 0.5 s",
+    rows.add("a source after a preparation: ≤ 0.5 s",
              fmt::format("{} (preparation {}, {:.0f} MB)", duration(prepared->seconds),
                          duration(prepare->seconds), 1e-6 * prepare->counter("peak")),
              prepared->seconds <= 0.5);
