@@ -130,8 +130,10 @@ class Extraction {
   /// the inner voxel, c across, d beside the outer voxel.
   SideCode link(SideCode self, const Voxel& inner, int d, int bit, const CellNeighbourhood& near,
                 std::vector<Junction>& junctions) const {
-    const auto& [b, c, dd] =
+    // Names of their own: clang 14 does not let lambdas see structured bindings.
+    const auto& beside =
         kPlaces[static_cast<std::size_t>(d)].beside[static_cast<std::size_t>(self & 3)];
+    const Place &b = beside[0], &c = beside[1], &dd = beside[2];
     const auto has = [&](const Place& p) { return near.has_surfel(p.axis, bit + p.dx, p.row); };
     const auto side = [&](const Place& p, int direction, int facing) {
       return topology::side_code(near.face_id(p.axis, bit + p.dx, p.row),
@@ -148,7 +150,8 @@ class Extraction {
                        : topology::side_code(near.face_id(c.axis, bit + c.dx, c.row), facing);
     }
 
-    const auto [in, out, in_e, out_e] = cells_.around(inner, d, e, has_b, has_d);
+    const std::array<Label, 4> labels = cells_.around(inner, d, e, has_b, has_d);
+    const Label in = labels[0], out = labels[1], in_e = labels[2], out_e = labels[3];
     const bool has_c = in_e != out_e;
     const auto side_b = [&] { return side(b, is_inner(in, in_e) ? e : back, d); };
     const auto side_c = [&] { return side(c, is_inner(in_e, out_e) ? d : down, back); };

@@ -12,11 +12,19 @@ namespace dsc::fuzz {
 namespace {
 
 using Target = void (*)(std::string_view);
-const std::map<std::string, Target> kTargets{
-    {"vol", fuzz_vol}, {"longvol", fuzz_longvol}, {"npy", fuzz_npy},
-    {"raw", fuzz_raw}, {"vox", fuzz_vox},         {"off", fuzz_off},
-    {"obj", fuzz_obj}, {"ply", fuzz_ply},         {"stl", fuzz_stl},
-    {"om", fuzz_om},   {"shape", fuzz_shape},     {"expression", fuzz_expression}};
+const std::map<std::string, Target> kTargets{{"vol", fuzz_vol},
+                                             {"longvol", fuzz_longvol},
+                                             {"npy", fuzz_npy},
+                                             {"raw", fuzz_raw},
+                                             {"vox", fuzz_vox},
+                                             {"vti", fuzz_vti},
+                                             {"off", fuzz_off},
+                                             {"obj", fuzz_obj},
+                                             {"ply", fuzz_ply},
+                                             {"stl", fuzz_stl},
+                                             {"om", fuzz_om},
+                                             {"shape", fuzz_shape},
+                                             {"expression", fuzz_expression}};
 
 std::string corpus(const std::string& name) { return DSC_FUZZ_CORPUS "/" + name; }
 

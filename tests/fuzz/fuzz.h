@@ -28,6 +28,7 @@ void fuzz_longvol(std::string_view bytes);
 void fuzz_npy(std::string_view bytes);
 void fuzz_raw(std::string_view bytes);  ///< ten bytes choose the layout (raw.cpp)
 void fuzz_vox(std::string_view bytes);
+void fuzz_vti(std::string_view bytes);
 void fuzz_off(std::string_view bytes);
 void fuzz_obj(std::string_view bytes);
 void fuzz_ply(std::string_view bytes);

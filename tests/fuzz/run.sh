@@ -14,7 +14,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 # Longest input in bytes: what holds every kind of line or chunk twice.
-declare -A longest=([vol]=320 [longvol]=320 [npy]=320 [raw]=96 [vox]=256 [off]=320 [obj]=320 [ply]=640 [stl]=512
+declare -A longest=([vol]=320 [longvol]=320 [npy]=320 [raw]=96 [vox]=256 [vti]=768 [off]=320 [obj]=320 [ply]=640 [stl]=512
   [om]=1024 [expression]=96 [shape]=128)
 targets=()
 while (($# > 0)) && [[ $1 != -- ]]; do
@@ -23,7 +23,7 @@ while (($# > 0)) && [[ $1 != -- ]]; do
   shift
 done
 [[ ${1:-} != -- ]] || shift
-((${#targets[@]})) || targets=(raw npy longvol vol off obj stl vox ply expression shape om)
+((${#targets[@]})) || targets=(raw npy longvol vol off obj stl vox vti ply expression shape om)
 
 # Freed memory is kept for a while, so that its use is seen; the default of 256 MB costs time only here.
 export ASAN_OPTIONS=quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
