@@ -51,7 +51,7 @@ void RegulariseEnergy::find_neighbours() {
   // Each vertex' neighbours, once a face: ascending, so that equal ones come together.
   std::vector<VertexId> across(2 * corners_.size());
   first_neighbour_.assign(V + 1, 0);
-  std::vector<char> boundary(V, 0);
+  std::vector<char> boundary(first_neighbour_.size() - 1, 0);
   std::vector<std::pair<VertexId, bool>> distinct;  ///< the neighbour; is the edge on the boundary
   std::vector<std::pair<VertexId, bool>> all;
   for (std::size_t v = 0; v < V; ++v) {
