@@ -24,6 +24,10 @@
 namespace dsc {
 namespace {
 
+/// What the factors of both systems take, and a little more: tests/benchmarks/RESULTS.md has 2078
+/// bytes a face at 100 000 faces.
+constexpr Index kDirectBytesPerVertex = 2500;
+
 constexpr double kHeatTolerance = 1e-3;  // of the componentwise residual
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -222,8 +226,12 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   data->hop = mesh.is_digital() ? mesh.spacing.minCoeff() : edge;
   data->time = options.time > 0 ? options.time : edge * edge;
   data->method = options.method;
+  SolverOptions poisson = options.poisson;
   if (data->method == HeatMethod::automatic) {
-    data->method = mesh.vertices() <= kDirectLimit ? HeatMethod::direct : HeatMethod::bands;
+    const bool fits = context.memory == nullptr ||
+                      context.memory->left() > kDirectBytesPerVertex * mesh.vertices();
+    if (!fits) poisson.direct_limit = std::min(poisson.direct_limit, kDirectLimitOnce);
+    data->method = fits && mesh.vertices() <= kDirectLimit ? HeatMethod::direct : HeatMethod::bands;
   }
   data->seconds_assemble = seconds_since(start);
 
@@ -237,7 +245,7 @@ GeodesicSolver::GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& opti
   }
   // Not make_unique, which would copy the matrix.
   data->poisson.reset(new NeumannSolver(negated(data->system.L, context), std::move(classes),
-                                        options.poisson, context, options.factory));
+                                        poisson, context, options.factory));
   data->seconds_factorize = seconds_since(factorize);
   data_ = std::move(data);
 }

@@ -84,7 +84,8 @@ struct GeodesicResult {
 /// run side by side.
 class GeodesicSolver {
  public:
-  /// What `mesh` looks at must outlive this. `automatic` means direct up to 150 000 vertices.
+  /// What `mesh` looks at must outlive this. `automatic` means direct up to 150 000 vertices
+  /// where context.memory leaves room for the factors.
   /// \throws InputError where the mesh has no face, UsageError on options out of range, and as
   /// assemble_laplacian and make_spd_solver do.
   explicit GeodesicSolver(const FlatMesh& mesh, const GeodesicOptions& options = {},

@@ -1,6 +1,10 @@
 #include "libdsc/algorithms/geodesic.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/surface/digital_surface.h"
+#include "libdsc/surface/extract.h"
+#include "libdsc/voxels/digitize.h"
+#include "libdsc/voxels/shapes.h"
 #include "tests/algorithms/meshes.h"
 
 #include <gtest/gtest.h>
@@ -267,6 +271,32 @@ TEST(Geodesic, BadSourcesAndOptionsAreRefused) {
   options.time = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(GeodesicSolver(mesh.flat(), options), UsageError);
   EXPECT_THROW(GeodesicSolver(FlatMesh{}), InputError);
+}
+
+/// Room for `left` bytes, whatever is asked for.
+class Room final : public MemoryLimit {
+ public:
+  explicit Room(Index left) : left_(left) {}
+  void need(std::string_view, Index) const override {}
+  Index left() const override { return left_; }
+
+ private:
+  Index left_;
+};
+
+TEST(Geodesic, TheMethodFollowsTheMemoryThatIsLeft) {
+  const BinaryVolume voxels = digitize(Sphere(1.), {0.1, 0.1, 0.1});
+  const DigitalSurface surface = extract_surface(voxels);
+  const VertexId source = 0;
+  Eigen::VectorXd distances[2];
+  for (const bool ample : {false, true}) {
+    const Room room(ample ? Index{1} << 40 : Index{1} << 20);
+    const GeodesicSolver solver(surface.flat(), {}, {1, nullptr, &room});
+    const GeodesicResult result = solver.distance({&source, 1});
+    EXPECT_EQ(result.report.method, ample ? HeatMethod::direct : HeatMethod::bands);
+    distances[ample ? 1 : 0] = result.distance;
+  }
+  EXPECT_LE((distances[0] - distances[1]).cwiseAbs().maxCoeff(), 1e-3);
 }
 
 }  // namespace
