@@ -14,8 +14,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 constexpr const char* kFolder = "/usr/share/mricron/templates/";
 constexpr const char* kAal = "aal.nii.gz";
 constexpr const char* kHarvardOxford = "HarvardOxford-cort-maxprob-thr0-1mm.nii.gz";

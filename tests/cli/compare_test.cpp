@@ -9,8 +9,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// A ball of voxels in a file.
 std::string ball_volume() {
   constexpr int kSize = 12;

@@ -11,13 +11,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 nlohmann::json report_of(const Words& arguments) {
   const Folder folder;
   const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});

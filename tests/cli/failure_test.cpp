@@ -15,8 +15,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 const Words kSurface = {"surface", "shape:sphere", "--gridstep", "0.05"};
 
 Words with(Words words, const Words& more) {

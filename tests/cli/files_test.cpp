@@ -11,8 +11,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// A volume of 2 x 2 x 2 voxels, one inside.
 std::string small_volume() {
   return "X: 2\nY: 2\nZ: 2\nVersion: 2\n.\n" + std::string("\1\0\0\0\0\0\0\0", 8);

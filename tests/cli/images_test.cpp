@@ -10,8 +10,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// An ellipsoid on stretched voxels, as .npy with --gridstep, and as .mha in a turned frame.
 class Placed : public testing::TestWithParam<double> {
  protected:

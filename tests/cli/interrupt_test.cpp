@@ -25,7 +25,6 @@ namespace dsc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 using Clock = std::chrono::steady_clock;
 
 /// A second is what is promised; a machine that runs other tests beside this one may take longer.
@@ -148,11 +147,6 @@ const Words kMiddle = {"shape:sphere", "--gridstep", "0.01"};
 constexpr const char* kBig = "big.vol";      ///< 600^3 voxels, one of them inside
 constexpr const char* kRough = "rough.vol";  ///< random labels: every other face is a surfel
 constexpr const char* kMesh = "mesh.off";
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 const std::vector<Stage>& stages() {
   const Words source = {"--source-vertex", "0"};

@@ -22,7 +22,6 @@ namespace dsc::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 using Clock = std::chrono::steady_clock;
 
 const Words kJob = {"surface", "shape:sphere", "--gridstep", "0.01", "--quiet"};

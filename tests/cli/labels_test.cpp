@@ -12,7 +12,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
 using Pair = std::pair<double, double>;
 
 /// A box of 12 x 12 x 8 voxels with a margin of one: label 3 at x < 6, elsewhere 7 at y < 6 and

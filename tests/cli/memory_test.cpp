@@ -11,8 +11,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 constexpr std::int64_t kMebi = 1 << 20;
 const std::string k31 = "2147483648";           // 2^31: cubed it wraps to 0 in 64 bits, and in 93
 const std::string k63 = "9223372036854775807";  // 2^63 - 1

@@ -14,13 +14,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 void expect_refused(const Outcome& outcome, int exit_code, const Words& words) {
   EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
   for (const std::string& word : words) {

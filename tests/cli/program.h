@@ -12,6 +12,14 @@
 
 namespace dsc::test {
 
+/// A command line, or a part of one.
+using Words = std::vector<std::string>;
+
+inline Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 struct Outcome {
   int exit_code = -1;  ///< 128 + the signal's number where one ended the program
   std::string out;

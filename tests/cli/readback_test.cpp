@@ -16,7 +16,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using OpenMeshMesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 

@@ -12,13 +12,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// Runs, expects success, and returns the report.
 nlohmann::json report_of(const Words& arguments) {
   const Folder folder;

@@ -9,8 +9,6 @@
 namespace dsc::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// The report without what may differ: how long it took, how much memory, on how many threads.
 nlohmann::json comparable(nlohmann::json report, const std::string& folder) {
   for (const char* key : {"timings_s", "peak_memory_bytes"}) {
