@@ -6,6 +6,7 @@
 #include "libdsc/cli/options.h"
 #include "libdsc/cli/progress.h"
 #include "libdsc/cli/run.h"
+#include "libdsc/io/atomic_file.h"
 #include "libdsc/io/memory_limit.h"
 
 #include <cstdio>
@@ -55,13 +56,23 @@ void run_and_report(const Options& options, ProgressBar& bar) {
   const ProcessMemory memory =
       options.max_memory ? ProcessMemory(*options.max_memory, "by --max-memory") : ProcessMemory();
   Run run{options, {options.threads, &bar, &memory}, {}};
-  {
-    const Stopwatch watch(run.report.timings.total);
-    run_command(run);
+  FileGroup files;
+  try {
+    {
+      const Stopwatch watch(run.report.timings.total);
+      run_command(run);
+    }
+    bar.clear();
+    run.report.peak_memory_bytes = peak_memory_bytes();
+    if (!options.report.empty()) write_report(options.report, options, run.report);
+    run.context.check();
+  } catch (const Cancelled&) {
+    throw;  // what was there stays
+  } catch (...) {
+    files.publish();  // the results of a long run are not lost because a later file failed
+    throw;
   }
-  bar.clear();
-  run.report.peak_memory_bytes = peak_memory_bytes();
-  if (!options.report.empty()) write_report(options.report, options, run.report);
+  files.publish();
   if (!options.quiet) {
     const std::string text = summary(run.report);
     if (to_standard_output(options)) {

@@ -19,6 +19,7 @@ namespace dsc {
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 20;
+constexpr const char* kRename = "rename the temporary to";
 
 /// Names of live temporaries, in static memory so that a signal handler can read them.
 struct Slot {
@@ -46,6 +47,22 @@ int register_temporary(const std::string& name) {
   return -1;
 }
 
+thread_local FileGroup* group = nullptr;
+
+[[noreturn]] void fail_to(const char* action, const std::string& path, int error) {
+  throw OutputError("cannot " + std::string(action) + " '" + path +
+                    "': " + std::system_category().message(error));
+}
+
+/// The new names themselves: best effort, the data is safe already.
+void synchronise_folder_of(const std::string& target) {
+  const std::string folder = std::filesystem::path(target).parent_path().string();
+  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) return;
+  (void)::fsync(directory);
+  (void)::close(directory);
+}
+
 }  // namespace
 
 void AtomicFile::remove_all_temporaries() noexcept {
@@ -61,10 +78,7 @@ void AtomicFile::remove_all_temporaries() noexcept {
   }
 }
 
-void AtomicFile::fail(const char* action, int error) const {
-  throw OutputError("cannot " + std::string(action) + " '" + path_ +
-                    "': " + std::system_category().message(error));
-}
+void AtomicFile::fail(const char* action, int error) const { fail_to(action, path_, error); }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   namespace fs = std::filesystem;
@@ -155,16 +169,44 @@ void AtomicFile::commit() {
   file_ = -1;
   if (::close(file) != 0) fail("close", errno);
   if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("rename the temporary to", errno);
+  if (group != nullptr) {
+    group->files_.push_back({path_, target_, temporary_, slot_});
+    slot_ = -1;
+    return;
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(kRename, errno);
   slots[slot_].state.store(Slot::kFree);
   slot_ = -1;
-  // The new name itself: best effort, the data is safe already.
-  const std::string folder = std::filesystem::path(target_).parent_path().string();
-  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory >= 0) {
-    (void)::fsync(directory);
-    (void)::close(directory);
+  synchronise_folder_of(target_);
+}
+
+FileGroup::FileGroup() : outer_(group) { group = this; }
+
+FileGroup::~FileGroup() {
+  group = outer_;
+  for (const Committed& file : files_) {
+    (void)::unlink(file.temporary.c_str());
+    slots[file.slot].state.store(Slot::kFree);
   }
+}
+
+void FileGroup::publish() {
+  // Every name first, so that as little time as can be lies between the first and the last.
+  const std::vector<Committed> files = std::move(files_);
+  files_.clear();
+  const Committed* failed = nullptr;
+  int reason = 0;
+  for (const Committed& file : files) {
+    if (::rename(file.temporary.c_str(), file.target.c_str()) == 0) continue;
+    if (failed == nullptr) reason = errno;
+    if (failed == nullptr) failed = &file;
+    (void)::unlink(file.temporary.c_str());
+  }
+  for (const Committed& file : files) {
+    slots[file.slot].state.store(Slot::kFree);
+    synchronise_folder_of(file.target);
+  }
+  if (failed != nullptr) fail_to(kRename, failed->path, reason);
 }
 
 void check_writable(const std::string& path) {

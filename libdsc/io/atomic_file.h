@@ -3,9 +3,9 @@
 ///
 /// Bytes go to a temporary beside the target; commit() flushes it to the disk and renames it over
 /// the target. Without a commit the target stays as it was and the temporary is removed. A target
-/// that is no regular file (/dev/stdout, a pipe) is written directly, and so is standard output under the
-/// name `FORMAT:-` (`ply:-`). A symbolic link is followed;
-/// an existing file keeps its permissions and is refused where it is not writable.
+/// that is no regular file (/dev/stdout, a pipe) is written directly, and so is standard output
+/// under the name `FORMAT:-` (`ply:-`). A symbolic link is followed; an existing file keeps its
+/// permissions and is refused where it is not writable.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ class AtomicFile {
   /// The bytes of a text, likewise.
   void write(std::string_view text) { write(text.data(), text.size()); }
 
-  /// Flush, fsync, close, rename. Nothing may be written afterwards. \throws OutputError; the
-  /// target is then unchanged.
+  /// Flush, fsync, close, rename; the last is left to a FileGroup of this thread where one lives.
+  /// Nothing may be written afterwards. \throws OutputError; the target is then unchanged.
   void commit();
 
   /// As given.
@@ -54,6 +54,32 @@ class AtomicFile {
   int slot_ = -1;          ///< in the registry of live temporaries
   int file_ = -1;
   std::vector<char> buffer_;
+};
+
+/// The files of one run, which appear together: while a group lives, what its thread commits is on
+/// the disk but not under its name, which publish() gives to all at once. What is written directly
+/// (a pipe, /dev/stdout) is not held back.
+class FileGroup {
+ public:
+  /// The group of this thread from now on; an earlier one is so again when this one ends.
+  FileGroup();
+  FileGroup(const FileGroup&) = delete;
+  FileGroup& operator=(const FileGroup&) = delete;
+  /// Removes what was committed and not published; the targets stay as they were.
+  ~FileGroup();
+
+  /// Renames all that was committed. \throws OutputError naming the first that could not be, after
+  /// the others were.
+  void publish();
+
+ private:
+  friend class AtomicFile;
+  struct Committed {
+    std::string path, target, temporary;
+    int slot;
+  };
+  std::vector<Committed> files_;
+  FileGroup* outer_;
 };
 
 /// Refuses, before any work is done, a path that an AtomicFile could not write to as things stand.

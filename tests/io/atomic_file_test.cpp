@@ -50,6 +50,53 @@ TEST(AtomicFile, WithoutCommitTheOldFileStays) {
   EXPECT_EQ(entries(folder.path()), 1);
 }
 
+TEST(AtomicFile, AGroupAppearsTogetherOrNotAtAll) {
+  const TemporaryFolder folder;
+  write_all(folder / "a", "old");
+  const auto commit = [&](const std::string& name) {
+    AtomicFile file(folder / name);
+    file.write("new");
+    file.commit();
+  };
+  {
+    const FileGroup group;
+    commit("a");
+    commit("b");
+    std::thread([&] { commit("of another thread"); }).join();
+    EXPECT_EQ(read_all(folder / "a"), "old");
+    EXPECT_FALSE(fs::exists(folder / "b"));
+    EXPECT_EQ(read_all(folder / "of another thread"), "new");
+  }
+  EXPECT_EQ(read_all(folder / "a"), "old");
+  EXPECT_EQ(entries(folder.path()), 2);
+
+  FileGroup group;
+  commit("a");
+  commit("b");
+  group.publish();
+  EXPECT_EQ(read_all(folder / "a") + read_all(folder / "b"), "newnew");
+  EXPECT_EQ(entries(folder.path()), 3);
+}
+
+TEST(AtomicFile, AGroupPublishesTheOthersWhereOneCannotBe) {
+  const TemporaryFolder folder;
+  FileGroup group;
+  for (const std::string name : {"a", "b", "c"}) {
+    AtomicFile file(folder / name);
+    file.write("new");
+    file.commit();
+  }
+  fs::create_directory(folder / "b");
+  try {
+    group.publish();
+    FAIL() << "a file took the place of a folder";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find(folder / "b"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(read_all(folder / "a") + read_all(folder / "c"), "newnew");
+  EXPECT_EQ(entries(folder.path()), 3);
+}
+
 TEST(AtomicFile, AFullDeviceIsAnErrorThatNamesFileAndReason) {
   const TemporaryFolder folder;
   const std::string link = folder / "full.ply";
