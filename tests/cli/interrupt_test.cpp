@@ -308,6 +308,25 @@ TEST(Interrupt, AtRandomMomentsLeavesWholeFilesOnly) {
   EXPECT_LT(longest, kLimit);
 }
 
+/// The first of two files is whole when the signal comes, and still does not take the old one's
+/// place.
+TEST(Interrupt, BetweenTwoFilesLeavesBothAsTheyWere) {
+  bool met = false;
+  for (int attempt = 0; attempt < 8 && !met; ++attempt) {
+    const Folder folder;
+    const Outcome outcome = run_dsc({"surface", "shape:sphere", "--gridstep", "0.006", "--quiet",
+                                     "-o", folder / "a.off", "-o", folder / "b.csv"},
+                                    {}, [&](int child) {
+                                      while (!has_ended(child) && folder.names().size() < 2) {
+                                      }
+                                      ::kill(child, SIGINT);
+                                    });
+    met = outcome.exit_code == 130;
+    EXPECT_EQ(folder.names(), met ? Words{} : (Words{"a.off", "b.csv"}));
+  }
+  EXPECT_TRUE(met) << "the second file was written before the signal came";
+}
+
 /// A second signal does not wait until the run has ended by itself.
 TEST(Interrupt, ASecondSignalWhileAFileIsWrittenLeavesNothing) {
   int tried = 0;
