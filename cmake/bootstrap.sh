@@ -45,6 +45,7 @@ missing_packages() {
   fi
   [[ $mode != test && $mode != docs ]] || command -v doxygen >/dev/null || echo doxygen
   [[ $mode != test ]] || command -v python3 >/dev/null || echo python3
+  [[ $mode != test ]] || command -v node >/dev/null || echo nodejs
   local package
   for package in "$@"; do
     [[ $(dpkg-query --show --showformat '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] ||
@@ -57,7 +58,7 @@ install_missing() {
     say "This system has no apt-get. libdsc needs a C and a C++20 compiler, CMake 3.25, Ninja and"
     printf '     %s\n' 'Eigen 3.4' 'OpenMesh' 'zlib' 'Expat' 'METIS' 'muParser' 'fmt' 'Spectra' 'oneTBB' 'CLI11' \
       'nlohmann-json' 'three.js r111'
-    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5' 'Chromium'
+    [[ $mode != test ]] || printf '     %s\n' 'GoogleTest' 'Python 3' 'CHOLMOD, of SuiteSparse' 'OpenBLAS' 'CGAL 5.5' 'Chromium' 'Node.js'
     [[ $mode != test && $mode != docs ]] || printf '     %s\n' 'doxygen 1.9.4'
     [[ " $* " != *mathjax* ]] || printf '     %s\n' 'MathJax 2, in /usr/share/javascript/mathjax (the pages alone need no more than these two and CMake)'
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'

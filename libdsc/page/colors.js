@@ -42,6 +42,13 @@ function ticksOf(low, high, count) {
   return ticks;
 }
 
+/** How many digits tell numbers apart that differ by `step`: 6 or more, at most those of a double. */
+function digitsFor(step, numbers) {
+  const most = Math.max(...numbers.map(Math.abs));
+  if (!(step > 0) || !(most > 0)) return 6;
+  return Math.min(15, Math.max(6, Math.ceil(Math.log10(most / step)) + 2));
+}
+
 /** A value in as many digits as it has. */
 function textOf(value, digits = 7) {
   if (value === Infinity) return '∞';

@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(script "")
-foreach(name codec model colors shaders surface orbit pick view panel selftest main)
+foreach(name codec model colors shaders surface orbit pick pair view panel selftest main)
   file(READ ${SOURCE}/${name}.js text)
   string(APPEND script "${text}\n")
 endforeach()

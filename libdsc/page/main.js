@@ -27,7 +27,7 @@ const breath = () => new Promise((resolve) => setTimeout(resolve));
 
 async function open() {
   if (typeof DecompressionStream === 'undefined') {
-    say('This browser cannot unpack the page (it lacks DecompressionStream). Versions since 2024 of ' +
+    say('This browser cannot unpack the page (it lacks DecompressionStream). Versions since 2023 of ' +
         'Chromium, Firefox and Safari can.');
     return;
   }
@@ -49,13 +49,16 @@ async function open() {
   await breath();
   const maps = manifest.colormaps.map((map) => new ColorMap(map));
   const inset = () => {
-    const panel = byId('panel');
-    const beside = window.innerWidth > 720 && !document.body.classList.contains('folded');
-    return beside ? panel.offsetWidth : 0;
+    const panel = byId('panel');  // of no size while it is folded
+    const beside = panel.offsetWidth < window.innerWidth;
+    return beside ? {right: panel.offsetWidth, bottom: 0} : {right: 0, bottom: panel.offsetHeight};
   };
+  byId('canvas').addEventListener('webglcontextlost', () => say('The graphics card is gone. Waiting for it.'));
+  byId('canvas').addEventListener('webglcontextrestored', () => say(''));
   const view = new View(byId('canvas'), byId('marks'), model, inset);
   const panel = new Panel(model, view, maps, wishes);
   view.draw();
+  model.reach = reachOf(model);  // the first pick's, while the picture is in the making
   say('');
   if (wishes.has('selftest')) selfTest(model, view, panel, start);
 }

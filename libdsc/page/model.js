@@ -34,8 +34,9 @@ class Scalar {
       if (value < low) low = value;
       if (value > high) high = value;
     }
-    if (low > high) low = high = 0;  // no value is finite
-    this.keptRange = {low: low * this.scale, high: high * this.scale, infinite};
+    const none = low > high;  // no value is finite
+    if (none) low = high = 0;
+    this.keptRange = {low: low * this.scale, high: high * this.scale, infinite, none};
     return this.keptRange;
   }
 

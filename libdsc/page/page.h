@@ -5,7 +5,7 @@
 /// The page turns the surface, colours it by a field with isolines, cuts it by a plane, shows two
 /// fields side by side and reads the values at a vertex or a face. Integers of faces whose field's
 /// name begins with `label` are told apart by hue; infinite values are grey. It needs WebGL and
-/// DecompressionStream (browsers since 2024). Positions and values are kept as arrays.h says, so
+/// DecompressionStream (browsers since 2023). Positions and values are kept as arrays.h says, so
 /// that what the page reads out is right to about seven digits.
 #pragma once
 

@@ -67,16 +67,22 @@ class Panel {
     const scheme = window.matchMedia('(prefers-color-scheme: dark)');
     scheme.addEventListener('change', () => this.update());
     let down = null;
-    view.canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
+    view.canvas.addEventListener('pointerdown', (event) => {
+      // A second finger makes a pinch of it, which picks nothing however still that finger is.
+      down = view.orbit.pointers.size === 1 ? [event.clientX, event.clientY] : null;
+    });
+    view.canvas.addEventListener('pointercancel', () => { down = null; });
     view.canvas.addEventListener('pointerup', (event) => {
-      const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
+      const most = event.pointerType === 'touch' ? 10 : 4;
+      const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < most;
+      down = null;
       if (still && event.button === 0) this.pickAt(event.clientX, event.clientY);
     });
     view.canvas.addEventListener('keydown', (event) => {
       if (event.key === 'Enter') this.pickMiddle();
       if (event.key === 'Escape') this.show(null);
     });
-    view.drawn = () => this.placeCaptions();
+    view.arrange = () => this.arrange();
   }
 
   /** Another field's naive one stands beside it, where that of the last one stood. */
@@ -106,8 +112,9 @@ class Panel {
     this.clearRange();
     if (kind) {
       const ranges = this.measured().map((scalar) => scalar[kind]);
-      byId('low').value = Math.min(...ranges.map((r) => r.low)).toPrecision(4);
-      byId('high').value = Math.max(...ranges.map((r) => r.high)).toPrecision(4);
+      const ends = [Math.min(...ranges.map((r) => r.low)), Math.max(...ranges.map((r) => r.high))];
+      const digits = digitsFor((ends[1] - ends[0]) / 1000, ends);
+      ['low', 'high'].forEach((id, i) => { byId(id).value = Number(ends[i].toPrecision(digits)); });
     }
     this.update();
   }
@@ -126,11 +133,16 @@ class Panel {
       high = Math.max(Math.abs(low), Math.abs(high));
       low = -high;
     }
+    const size = high - low;
     const typed = [byId('low'), byId('high')].map((input) => input.valueAsNumber);
-    if (Number.isFinite(typed[0])) low = typed[0];
-    if (Number.isFinite(typed[1])) high = typed[1];
-    if (!(low < high)) high = low + (Math.abs(low) || 1) * 1e-6;
-    return {low, high};
+    const [isLow, isHigh] = typed.map(Number.isFinite);
+    if (isLow) low = typed[0];
+    if (isHigh) high = typed[1];
+    if (isLow && isHigh && low > high) [low, high] = [high, low];  // typed backwards
+    if (low < high) return {low, high};
+    // Nothing lies between, as where the one end typed in is beyond all values: as wide as the field.
+    const width = size > 0 && Number.isFinite(size) ? size : (Math.abs(low) || 1) * 1e-6;
+    return isHigh && !isLow ? {low: high - width, high} : {low, high: low + width};
   }
 
   /** Signed values, of which neither sign is a trifle, get a diverging map. */
@@ -170,13 +182,14 @@ class Panel {
       const map = this.mapOf(scalars);
       const {low, high} = this.rangeOf(scalars);
       const count = byId('isolines').valueAsNumber || 0;
-      const step = count > 0 ? roundStep(high - low, count) : 0;
+      const step = count > 0 && scalar.range.low < scalar.range.high ? roundStep(high - low, count) : 0;
       surface.colourBy(map, low, high, step);
       return {scalar, map, low, high, step};
     });
     this.clip();
     this.captionElements = this.captions.map((caption) => captionOf(caption));
     byId('captions').replaceChildren(...this.captionElements);
+    this.captionWidth = 0;
     byId('lines').textContent = this.lineText();
     this.show(this.view.picked);
     view.request();
@@ -206,14 +219,19 @@ class Panel {
     for (const surface of this.view.panes) surface.clipBy(plane);
   }
 
-  /** Each caption at the bottom of its pane. */
-  placeCaptions() {
-    this.view.rectangles().forEach((r, i) => {
-      const style = this.captionElements[i].style;
+  /** Each caption at the bottom of its pane, which ends above the higher one of them. */
+  arrange() {
+    const tiles = this.view.tiles();
+    const width = Math.max(60, Math.min(420, tiles[0].width - 48));
+    tiles.forEach((r, i) => {
+      const {style} = this.captionElements[i];
       style.left = `${r.x + r.width / 2}px`;
       style.top = `${r.y + r.height}px`;
-      style.width = `${Math.min(420, r.width - 48)}px`;
+      style.width = `${width}px`;
+      if (width !== this.captionWidth) writeTicks(this.captionElements[i], this.captions[i], width);
     });
+    this.captionWidth = width;
+    this.view.footer = Math.max(...this.captionElements.map((caption) => caption.offsetHeight));
   }
 
   pickAt(x, y) {
@@ -276,17 +294,19 @@ class Panel {
   }
 }
 
-/** The name of a field above its colours and their numbers. */
+/** A new child of an element. */
+function element(parent, name, text = '', className = '') {
+  const child = document.createElement(name);
+  child.textContent = text;
+  if (className) child.className = className;
+  parent.append(child);
+  return child;
+}
+
+/** The name of a field above its colours; writeTicks() adds the numbers. */
 function captionOf({scalar, map, low, high}) {
   const caption = document.createElement('figure');
   if (!scalar) return caption;
-  const element = (parent, name, text = '', className = '') => {
-    const child = document.createElement(name);
-    child.textContent = text;
-    if (className) child.className = className;
-    parent.append(child);
-    return child;
-  };
   element(caption, 'figcaption', scalar.name);
   if (scalar.labels) {
     const most = 24;
@@ -298,17 +318,35 @@ function captionOf({scalar, map, low, high}) {
     if (more > 0) element(list, 'em', `and ${more} more`);
     return caption;
   }
+  const {range} = scalar;
+  if (range.none) {
+    element(caption, 'p', 'grey: infinite everywhere');
+    return caption;
+  }
   const bar = element(caption, 'div', '', 'bar');
   bar.style.background = map.gradient;
-  const scale = element(caption, 'div', '', 'scale');
-  for (const tick of ticksOf(low, high, 5)) {
-    const mark = element(scale, 'span', textOf(tick, 6));
-    mark.style.left = `${100 * (tick - low) / (high - low)}%`;
-  }
-  const {range} = scalar;
+  element(caption, 'div', '', 'scale');
   const size = high - low;
   if (range.low < low - 1e-6 * size) bar.classList.add('below');
   if (range.high > high + 1e-6 * size) bar.classList.add('above');
-  if (range.infinite) element(scale, 'em', 'grey: infinite');
+  if (range.infinite) element(caption, 'p', 'grey: infinite');
   return caption;
+}
+
+/** The numbers under the colours of a caption, as many as have room in this width. */
+function writeTicks(caption, {low, high}, width) {
+  const scale = caption.querySelector('.scale');
+  if (!scale) return;
+  for (let count = 5; count > 0; --count) {
+    const ticks = ticksOf(low, high, count);
+    const digits = digitsFor(ticks.length > 1 ? ticks[1] - ticks[0] : high - low, ticks);
+    scale.replaceChildren();
+    for (const tick of ticks) {
+      const mark = element(scale, 'span', textOf(tick, digits));
+      mark.style.left = `${100 * (tick - low) / (high - low)}%`;
+    }
+    const widest = Math.max(...[...scale.children].map((mark) => mark.offsetWidth));
+    const apart = ticks.length > 1 ? width * (ticks[1] - ticks[0]) / (high - low) : Infinity;
+    if (widest + 10 < apart) return;
+  }
 }

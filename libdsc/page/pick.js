@@ -48,7 +48,6 @@ function distanceToTriangle(points, o, d, i, j, k) {
  */
 function castRay(model, o, d, clip) {
   const {points, corners} = model;
-  if (model.reach === undefined) model.reach = reachOf(model);
   const reach2 = model.reach ** 2 * (1 + 1e-5);
   const isCut = (t) => clip &&
       clip.normal.reduce((sum, n, axis) => sum + n * (o[axis] + t * d[axis]), 0) > clip.offset;

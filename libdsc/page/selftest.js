@@ -50,7 +50,7 @@ function selfTest(model, view, panel, start) {
   out.id = 'selftest';
   out.hidden = true;
   try {
-    const background = view.pixel(1, 1);  // waits until the picture is there
+    const background = view.seen(1, 1);  // waits until the picture is there
     const seconds = (performance.now() - start) / 1000;
     const panes = view.rectangles().map((r) => paneReport(model, view, panel, r));
     const gl = view.renderer.getContext();
@@ -70,4 +70,5 @@ function selfTest(model, view, panel, start) {
     out.textContent = JSON.stringify({errors: [...selfTestErrors, String(error)]});
   }
   document.body.append(out);
+  window.page = {model, view, panel};  // for tests that go on from here
 }

@@ -69,6 +69,29 @@ function placesOfCorners(model, scalar) {
   return places;
 }
 
+/** The shared geometry with further attributes, drawn by the program of shaders.js. */
+function sceneOf(shared, attributes, uniforms, further = {}) {
+  const material = new THREE.ShaderMaterial({
+    uniforms,
+    vertexShader: kVertexShader,
+    fragmentShader: kFragmentShader,
+    side: THREE.DoubleSide,
+    extensions: {derivatives: true},
+    ...further,
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', shared.position);
+  geometry.setAttribute('facet', shared.facet);
+  geometry.setIndex(shared.index);
+  for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Math.sqrt(3));
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  const scene = new THREE.Scene();
+  scene.add(mesh);
+  return scene;
+}
+
 /** One view's copy of the surface: the shared geometry under a scalar's colours. */
 class ColoredSurface {
   constructor(model, shared) {
@@ -86,31 +109,15 @@ class ColoredSurface {
       clip: {value: new THREE.Vector4(0, 0, 0, 1)},
       cutShade: {value: 1},
     };
-    const material = new THREE.ShaderMaterial({
-      uniforms: this.uniforms,
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      side: THREE.DoubleSide,
-      extensions: {derivatives: true},
-    });
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', shared.position);
-    geometry.setAttribute('facet', shared.facet);
-    geometry.setIndex(shared.index);
     this.values = new THREE.BufferAttribute(new Float32Array(model.corners.length), 1);
-    geometry.setAttribute('value', this.values);
-    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Math.sqrt(3));
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.mesh.frustumCulled = false;
-    this.scene = new THREE.Scene();
-    this.scene.add(this.mesh);
+    this.scene = sceneOf(shared, {value: this.values}, this.uniforms);
   }
 
   /** Colours by a scalar, or plainly where it is null. */
   show(scalar) {
     if (scalar === this.scalar) return;
     this.scalar = scalar;
-    this.values.array.set(placesOfCorners(this.model, scalar));
+    this.values.array = placesOfCorners(this.model, scalar);
     this.values.needsUpdate = true;
     this.uniforms.colouring.value = !scalar ? 0 : scalar.labels ? 2 : 1;
   }

@@ -1,35 +1,46 @@
 // One or two panes on one canvas, with linked cameras. Drawn when something changed, and only then.
 
 class View {
-  /** `inset` tells how many pixels on the right the panel covers. */
+  /** `inset` tells how many pixels at the right and at the bottom the panel covers, {right, bottom}. */
   constructor(canvas, marks, model, inset) {
     Object.assign(this, {canvas, marks, model, inset});
+    this.footer = 0;  // the height of the captions, which no surface may run into
     // Without a graphics card, smooth edges take three times as long; faces by the million have few.
     const antialias = model.faces < 300000;
     this.renderer = new THREE.WebGLRenderer({canvas, antialias});
     this.renderer.autoClear = false;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    // Images beside the canvas have no smooth edges.
+    this.pairs = !antialias && canPair(this.renderer);
     const shared = sharedGeometry(model);
     this.panes = [new ColoredSurface(model, shared)];
-    this.makeSecond = () => new ColoredSurface(model, shared);
+    this.makeSecond = () => {
+      this.panes.push(new ColoredSurface(model, shared));
+      if (this.pairs) this.pair = new Pair(this.renderer, shared, this.panes);
+    };
     this.plane = null;
     this.picked = null;
-    this.waiting = false;
-    this.frames = 0;
+    this.waiting = 0;
     this.orbit = new Orbit(canvas, () => this.request());
     window.addEventListener('resize', () => this.request());
+    canvas.addEventListener('webglcontextrestored', () => this.request());
   }
 
   /** The second pane is made when it is first wanted: it takes 4 bytes a corner. */
   setPaneCount(count) {
-    if (count === 2 && this.panes.length < 2) this.panes.push(this.makeSecond());
+    if (count === 2 && this.panes.length < 2) this.makeSecond();
     this.paneCount = count;
   }
 
-  /** The panes' rectangles in CSS pixels from the top left. */
+  /** The panes' rectangles in CSS pixels from the top left; below each is room for its caption. */
   rectangles() {
-    const width = Math.max(1, this.canvas.clientWidth - this.inset());
-    const height = Math.max(1, this.canvas.clientHeight);
+    return this.tiles().map((r) => ({...r, height: Math.max(1, r.height - this.footer)}));
+  }
+
+  /** The panes with their captions. */
+  tiles() {
+    const {right, bottom} = this.inset();
+    const width = Math.max(1, this.canvas.clientWidth - right);
+    const height = Math.max(1, this.canvas.clientHeight - bottom);
     if (this.paneCount !== 2) return [{x: 0, y: 0, width, height}];
     if (width < 0.8 * height) {
       return [0, 1].map((i) => ({x: 0, y: i * height / 2, width, height: height / 2}));
@@ -39,30 +50,36 @@ class View {
 
   request() {
     if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.draw();
-    });
+    this.waiting = requestAnimationFrame(() => this.draw());
   }
 
   draw() {
     const {canvas, renderer} = this;
+    if (this.arrange) this.arrange();
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (ratio !== renderer.getPixelRatio()) renderer.setPixelRatio(ratio);
     const size = renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height) renderer.setSize(width, height, false);
     renderer.setScissorTest(false);
     renderer.setClearColor(getComputedStyle(document.body).backgroundColor);
     renderer.clear();
     renderer.setScissorTest(true);
-    this.rectangles().forEach((r, i) => {
-      renderer.setViewport(r.x, height - r.y - r.height, r.width, r.height);
-      renderer.setScissor(r.x, height - r.y - r.height, r.width, r.height);
-      renderer.render(this.panes[i].scene, this.orbit.cameraFor(r.width, r.height));
-    });
-    ++this.frames;
+    const places = this.rectangles().map((r) => ({...r, y: height - r.y - r.height}));
+    const camera = this.orbit.cameraFor(places[0].width, places[0].height);
+    if (places.length === 2 && this.pairs) {
+      this.pair.draw(places, camera);
+    } else {
+      places.forEach((place, i) => {
+        renderer.setViewport(place.x, place.y, place.width, place.height);
+        renderer.setScissor(place.x, place.y, place.width, place.height);
+        renderer.render(this.panes[i].scene, camera);
+      });
+    }
     this.drawMarks();
-    if (this.drawn) this.drawn();
+    // Whatever asked for a picture has it: at first the page would draw itself twice.
+    cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
   }
 
   /** The place on the canvas of a point of model.points, in a pane. */
@@ -77,20 +94,23 @@ class View {
     if (!this.picked) return;
     const {points, corners} = this.model;
     const pointOf = (v) => points.subarray(3 * v, 3 * v + 3);
-    const add = (name, attributes) => {
+    const add = (parent, name, attributes) => {
       const element = document.createElementNS('http://www.w3.org/2000/svg', name);
       for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-      this.marks.append(element);
+      parent.append(element);
+      return element;
     };
     for (const r of this.rectangles()) {
+      const {x, y, width, height} = r;  // a drawing of its own keeps within them
+      const pane = add(this.marks, 'svg', {x, y, width, height, viewBox: [x, y, width, height].join(' ')});
       if (this.picked.face >= 0) {
         const [first, last] = [this.picked.face, this.picked.face + 1].map((f) => this.model.first(f));
         const outline = [...corners.subarray(first, last)].map((v) => this.project(pointOf(v), r));
-        add('polygon', {points: outline.map((p) => p.join()).join(' ')});
+        add(pane, 'polygon', {points: outline.map((p) => p.join()).join(' ')});
       }
       if (this.picked.vertex >= 0) {
         const [cx, cy] = this.project(pointOf(this.picked.vertex), r);
-        add('circle', {cx, cy, r: 5});
+        add(pane, 'circle', {cx, cy, r: 5});
       }
     }
   }
@@ -109,6 +129,11 @@ class View {
   /** The colour on the canvas at a place, as bytes; draws for it. */
   pixel(x, y) {
     this.draw();
+    return this.seen(x, y);
+  }
+
+  /** The same of the picture that was drawn last; not to be asked for later than that. */
+  seen(x, y) {
     const gl = this.renderer.getContext();
     const ratio = this.renderer.getPixelRatio();
     const bytes = new Uint8Array(4);
