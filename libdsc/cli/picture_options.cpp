@@ -4,7 +4,7 @@
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/numbers.h"
 #include "libdsc/cli/option_kinds.h"
-#include "libdsc/io/volume_formats.h"
+#include "libdsc/io/path_extension.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ void read_count(const std::string& text, const char* option, int most, int& targ
 
 }  // namespace
 
-bool is_picture_path(const std::string& path) { return detail::extension_of(path) == ".png"; }
+bool is_picture_path(const std::string& path) { return extension_of(path) == ".png"; }
 
 void add_picture(CLI::App& app, Options& o) {
   using Text = const std::string&;

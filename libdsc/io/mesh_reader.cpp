@@ -1,7 +1,7 @@
 #include "libdsc/io/mesh_reader.h"
 
 #include "libdsc/io/mesh_formats.h"
-#include "libdsc/io/volume_formats.h"
+#include "libdsc/io/path_extension.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ constexpr std::array<MeshFormat, 5> kFormats{{{".off", detail::read_off},
                                               {".om", detail::read_om}}};
 
 const MeshFormat* format_of(const std::string& path) {
-  const std::string ending = detail::extension_of(path);
+  const std::string ending = extension_of(path);
   for (const MeshFormat& format : kFormats) {
     if (ending == format.ending) return &format;
   }

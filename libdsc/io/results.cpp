@@ -3,7 +3,7 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/result_writers.h"
-#include "libdsc/io/volume_formats.h"
+#include "libdsc/io/path_extension.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ constexpr std::array<Ending, 7> kEndings{{{".ply", Format::ply},
                                           {".om", Format::om}}};
 
 Format format_of(const std::string& path) {
-  const std::string ending = detail::extension_of(path);
+  const std::string ending = extension_of(path);
   for (const Ending& known : kEndings) {
     if (ending == known.text) return known.format;
   }

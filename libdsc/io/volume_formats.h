@@ -28,7 +28,4 @@ using ByteReader = std::function<void(void* to, Index bytes)>;
 void stream_slabs(Index slices, Index per_slice, const ValueType& type, const ByteReader& next,
                   const std::function<void(const Slab&)>& take, const Context& context);
 
-/// The lower-case extension with its dot; `.vol` of vol:- (standard_stream.h).
-std::string extension_of(const std::string& path);
-
 }  // namespace dsc::detail

@@ -2,11 +2,10 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
-#include "libdsc/io/standard_stream.h"
+#include "libdsc/io/path_extension.h"
 #include "libdsc/io/volume_formats.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 namespace dsc {
@@ -71,16 +70,6 @@ void stream_slabs(Index slices, Index per_slice, const ValueType& type, const By
   }
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = is_standard_stream(path)
-                              ? "." + path.substr(0, path.size() - 2)
-                              : std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension;
-}
-
 }  // namespace detail
 
 std::string volume_endings() {
@@ -106,7 +95,7 @@ ValueType value_type(const std::string& name) {
 }
 
 std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context) {
-  const std::string extension = detail::extension_of(path);
+  const std::string extension = extension_of(path);
   if (extension == ".vol") return detail::open_vol(InputFile(path), false);
   if (extension == ".longvol") return detail::open_vol(InputFile(path), true);
   if (extension == ".npy") return detail::open_npy(InputFile(path));

@@ -3,7 +3,7 @@
 #include "libdsc/base/error.h"
 #include "libdsc/base/parallel.h"
 #include "libdsc/io/atomic_file.h"
-#include "libdsc/io/volume_formats.h"
+#include "libdsc/io/path_extension.h"
 
 #include <zlib.h>
 
@@ -22,7 +22,7 @@ namespace {
 enum class Format { kVol, kLongvol, kNpy, kVti };
 
 Format format_of(const std::string& path) {
-  const std::string extension = detail::extension_of(path);
+  const std::string extension = extension_of(path);
   if (extension == ".vol") return Format::kVol;
   if (extension == ".longvol") return Format::kLongvol;
   if (extension == ".npy") return Format::kNpy;

@@ -2,19 +2,13 @@
 #include "libdsc/page/page.h"
 
 #include "libdsc/base/error.h"
-
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include "libdsc/io/path_extension.h"
 
 namespace dsc {
 
 bool is_page_path(const std::string& path) {
-  if (path == "html:-") return true;  // standard output
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".html" || ending == ".htm";
+  const std::string extension = extension_of(path);
+  return extension == ".html" || extension == ".htm";
 }
 
 #ifndef DSC_WITH_PAGE

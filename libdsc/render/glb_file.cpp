@@ -2,13 +2,13 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/io/atomic_file.h"
+#include "libdsc/io/path_extension.h"
 #include "libdsc/render/colormap.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -195,12 +195,7 @@ void append_word(std::string& out, std::uint32_t word) {
 
 }  // namespace
 
-bool is_glb_path(const std::string& path) {
-  if (path == "glb:-") return true;  // standard output
-  std::string ending = path.size() > 4 ? path.substr(path.size() - 4) : "";
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".glb";
-}
+bool is_glb_path(const std::string& path) { return extension_of(path) == ".glb"; }
 
 std::vector<std::string> write_glb(const std::string& path, const Result& result,
                                    const Context& context) {
