@@ -1,8 +1,8 @@
-// STL, binary: floats, triangles only, vertices repeated in each. A quad is cut along its shorter
-// diagonal, a larger face into a fan from its first corner.
+// STL, binary: floats, triangles only (face_triangles.h), vertices repeated in each.
 #include "libdsc/base/error.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/result_writers.h"
+#include "libdsc/surface/face_triangles.h"
 
 #include <Eigen/Geometry>
 
@@ -24,13 +24,10 @@ void append_triangle(std::string& out, const Vec3& a, const Vec3& b, const Vec3&
 
 void append_face(std::string& out, const FlatMesh& mesh, Index face) {
   const auto corners = mesh.face(face);
-  const auto at = [&](std::size_t i) { return mesh.positions[corners[i % corners.size()]]; };
-  const bool turned =
-      corners.size() == 4 && (at(1) - at(3)).squaredNorm() < (at(0) - at(2)).squaredNorm();
-  const std::size_t start = turned ? 1 : 0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    append_triangle(out, at(start), at(start + i), at(start + i + 1));
-  }
+  const auto at = [&](std::size_t i) { return mesh.positions[corners[i]]; };
+  for_each_triangle(mesh, face, [&](std::size_t a, std::size_t b, std::size_t c) {
+    append_triangle(out, at(a), at(b), at(c));
+  });
 }
 
 void check_range(const FlatMesh& mesh) {

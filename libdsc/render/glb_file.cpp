@@ -4,6 +4,7 @@
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/path_extension.h"
 #include "libdsc/render/colormap.h"
+#include "libdsc/surface/face_triangles.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -53,19 +54,6 @@ struct Points {
   std::vector<std::uint32_t> triangles;
 };
 
-/// Corners of the triangles of a face, as numbers from 0 to its corners.
-template <class Take>
-void cut(const FlatMesh& mesh, Index f, const Take& take) {
-  const auto ids = mesh.face(f);
-  const auto at = [&](std::size_t i) { return mesh.positions[ids[i % ids.size()]]; };
-  const bool turned =
-      ids.size() == 4 && (at(1) - at(3)).squaredNorm() < (at(0) - at(2)).squaredNorm();
-  const std::size_t start = turned ? 1 : 0;
-  for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
-    take(start, (start + i) % ids.size(), (start + i + 1) % ids.size());
-  }
-}
-
 Points points_of(const FlatMesh& mesh, bool per_corner) {
   Points points;
   points.per_corner = per_corner;
@@ -82,7 +70,7 @@ Points points_of(const FlatMesh& mesh, bool per_corner) {
       points.vertex.insert(points.vertex.end(), ids.begin(), ids.end());
       points.face.insert(points.face.end(), ids.size(), static_cast<std::int32_t>(f));
     }
-    cut(mesh, f, [&](std::size_t a, std::size_t b, std::size_t c) {
+    for_each_triangle(mesh, f, [&](std::size_t a, std::size_t b, std::size_t c) {
       for (const std::size_t corner : {a, b, c}) {
         points.triangles.push_back(per_corner ? first + static_cast<std::uint32_t>(corner)
                                               : static_cast<std::uint32_t>(ids[corner]));
