@@ -14,14 +14,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A message on stderr that starts with the program's name, nothing on stdout.
-void expect_refused(const Outcome& outcome, int exit_code, const std::vector<std::string>& words) {
-  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err.rfind("dsc: ", 0), 0U) << outcome.err;
-  for (const std::string& word : words) EXPECT_TRUE(contains(outcome.err, word)) << outcome.err;
-}
-
 TEST(CommandLine, HelpNamesEveryCommandShapeAndExitCode) {
   const Outcome outcome = run_dsc({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);

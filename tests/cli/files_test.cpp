@@ -16,14 +16,6 @@ std::string small_volume() {
   return "X: 2\nY: 2\nZ: 2\nVersion: 2\n.\n" + std::string("\1\0\0\0\0\0\0\0", 8);
 }
 
-void expect_refused(const Outcome& outcome, int exit_code, const Words& words) {
-  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  for (const std::string& word : words) {
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
-  }
-}
-
 TEST(Files, TheInputIsNeverOverwritten) {
   const Folder folder;
   const std::string input = folder / "h.vol";

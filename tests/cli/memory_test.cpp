@@ -16,7 +16,7 @@ const std::string k31 = "2147483648";           // 2^31: cubed it wraps to 0 in 
 const std::string k63 = "9223372036854775807";  // 2^63 - 1
 
 /// Expects a refusal that names the file, at once and in little memory.
-void expect_refused(const std::string& path, const Words& options = {}) {
+void expect_refused_at_once(const std::string& path, const Words& options = {}) {
   SCOPED_TRACE(path);
   Words words = {"info", path};
   words.insert(words.end(), options.begin(), options.end());
@@ -41,7 +41,7 @@ TEST(ClaimedSizes, OfVolumesAreRefusedAtOnce) {
   const auto expect = [&](const std::string& name, const std::string& bytes,
                           const Words& options = {}) {
     write_file(folder / name, bytes + std::string(100, 'x'));
-    expect_refused(folder / name, options);
+    expect_refused_at_once(folder / name, options);
   };
   const std::string one = "1";
   for (const auto& [x, y, z] : {std::array{k31, k31, k31}, {k63, one, one}, {one, one, k63}}) {
@@ -75,7 +75,7 @@ TEST(ClaimedSizes, OfMeshesAreRefusedAtOnce) {
   const Folder folder;
   const auto expect = [&](const std::string& name, const std::string& bytes) {
     write_file(folder / name, bytes);
-    expect_refused(folder / name);
+    expect_refused_at_once(folder / name);
   };
   for (const std::string& n : {k31, k63, std::string("2000000000")}) {
     expect("v.off", "OFF\n" + n + " 1 0\n0 0 0\n");
@@ -103,7 +103,7 @@ TEST(ClaimedSizes, OfImagesAreRefusedAtOnce) {
   const TestImage image = random_image(1);
   const auto expect = [&](const std::string& name, const std::string& bytes) {
     write_file(folder / name, bytes);
-    expect_refused(folder / name);
+    expect_refused_at_once(folder / name);
   };
   // 377 bytes: NIfTI of 2100^3 shorts, 18 GB, and of 32767^3.
   for (const int size : {2100, 32767}) {
@@ -142,7 +142,7 @@ TEST(ClaimedSizes, OfImagesAreRefusedAtOnce) {
     dicom.replace(dicom.find(tag) + 8, 2, little_endian(0xffff, 2));
   }
   write_file(folder / "series/1", dicom);
-  expect_refused(folder / "series");
+  expect_refused_at_once(folder / "series");
 }
 
 TEST(MaxMemory, IsASizeInBytes) {

@@ -19,14 +19,6 @@ nlohmann::json report_of(const Words& arguments) {
   return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
 }
 
-void expect_refused(const Words& arguments, int code, const std::vector<std::string>& parts) {
-  const Outcome outcome = run_dsc(arguments);
-  EXPECT_EQ(outcome.exit_code, code) << outcome.err;
-  for (const std::string& part : parts) {
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in " << outcome.err;
-  }
-}
-
 const char* const kCube =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
@@ -236,8 +228,9 @@ TEST(MeshInput, TheNormalsOfTheFileDecideTheCalculus) {
   EXPECT_EQ(report_of(Words{"gradient", folder / "n.ply", "--calculus", "naive"} +
                       function)["calculus"]["kind"],
             "naive");
-  expect_refused(Words{"gradient", folder / "cube.obj", "--calculus", "projected"} + function, 3,
-                 {"no normals", "--calculus naive"});
+  expect_refused(
+      run_dsc(Words{"gradient", folder / "cube.obj", "--calculus", "projected"} + function), 3,
+      {"no normals", "--calculus naive"});
 }
 
 TEST(MeshInput, TheGradientOfALinearFunctionIsExactOnAnyPolygons) {
@@ -268,29 +261,31 @@ TEST(MeshInput, VerticesWithoutFacesAreLeftOutByWarning) {
   ASSERT_EQ(report["warnings"].size(), 1U);
   EXPECT_NE(report["warnings"][0].get<std::string>().find("1 of its vertices"), std::string::npos);
   EXPECT_EQ(read_mesh(folder / "d.ply").positions.cols(), 4);
-  expect_refused({"geodesic", folder / "a.obj", "--source-vertex", "1"}, 3, {"--source x,y,z"});
+  expect_refused(run_dsc({"geodesic", folder / "a.obj", "--source-vertex", "1"}), 3,
+                 {"--source x,y,z"});
 }
 
 TEST(MeshInput, WhatOnlyVoxelsHaveIsRefused) {
   const Folder folder;
   write_file(folder / "cube.obj", kCube);
   const std::string cube = folder / "cube.obj";
-  expect_refused({"normals", cube, "--estimator", "ii"}, 2, {"voxels"});
-  expect_refused({"normals", cube, "--radius", "2"}, 2, {"voxels"});
-  expect_refused({"info", cube, "--gridstep", "2"}, 2, {"--gridstep"});
-  expect_refused({"info", cube, "--label", "2"}, 2, {"--label"});
-  expect_refused({"info", cube, "--border", "open"}, 2, {"--border"});
-  expect_refused({"geodesic", cube, "--source", "0,0,0", "--estimator", "trivial"}, 2, {"naive"});
+  expect_refused(run_dsc({"normals", cube, "--estimator", "ii"}), 2, {"voxels"});
+  expect_refused(run_dsc({"normals", cube, "--radius", "2"}), 2, {"voxels"});
+  expect_refused(run_dsc({"info", cube, "--gridstep", "2"}), 2, {"--gridstep"});
+  expect_refused(run_dsc({"info", cube, "--label", "2"}), 2, {"--label"});
+  expect_refused(run_dsc({"info", cube, "--border", "open"}), 2, {"--border"});
+  expect_refused(run_dsc({"geodesic", cube, "--source", "0,0,0", "--estimator", "trivial"}), 2,
+                 {"naive"});
 }
 
 TEST(MeshInput, ABrokenFileIsRefusedWithItsLine) {
   const Folder folder;
   write_file(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n");
-  expect_refused({"info", folder / "a.obj"}, 3, {"a.obj", "line 3", "not a number"});
+  expect_refused(run_dsc({"info", folder / "a.obj"}), 3, {"a.obj", "line 3", "not a number"});
   write_file(folder / "b.obj", "v 0 0 0\n");
-  expect_refused({"info", folder / "b.obj"}, 3, {"b.obj", "no face"});
+  expect_refused(run_dsc({"info", folder / "b.obj"}), 3, {"b.obj", "no face"});
   write_file(folder / "c.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
-  expect_refused({"normals", folder / "c.off"}, 3, {"face 0", "no area"});
+  expect_refused(run_dsc({"normals", folder / "c.off"}), 3, {"face 0", "no area"});
 }
 
 }  // namespace

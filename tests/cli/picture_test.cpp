@@ -14,13 +14,6 @@
 namespace dsc::test {
 namespace {
 
-void expect_refused(const Outcome& outcome, int exit_code, const Words& words) {
-  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-  for (const std::string& word : words) {
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
-  }
-}
-
 const Words kSphere = {"geodesic", "shape:sphere", "--gridstep", "0.1", "--source", "0,0,1"};
 
 TEST(Pictures, OptionsAboutThemNeedOne) {

@@ -1,5 +1,7 @@
 #include "tests/cli/program.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -62,6 +64,16 @@ Outcome run_dsc(const std::vector<std::string>& arguments, const std::function<v
   outcome.peak_bytes = std::int64_t{usage.ru_maxrss} * 1024;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return outcome;
+}
+
+void expect_refused(const Outcome& outcome, int exit_code, const Words& parts) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("dsc: ", 0), 0U) << outcome.err;
+  for (const std::string& part : parts) {
+    EXPECT_NE(outcome.err.find(part), std::string::npos)
+        << "'" << part << "' is not in " << outcome.err;
+  }
 }
 
 Folder::Folder() {

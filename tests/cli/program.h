@@ -34,6 +34,10 @@ Outcome run_dsc(const std::vector<std::string>& arguments,
                 const std::function<void()>& in_child = {},
                 const std::function<void(int)>& meanwhile = {});
 
+/// Expects this exit code, nothing on standard output, and a message that begins with the program's
+/// name and has each of `parts`.
+void expect_refused(const Outcome& outcome, int exit_code, const Words& parts);
+
 /// A fresh folder, removed at the end of its scope.
 class Folder {
  public:
