@@ -97,27 +97,9 @@ TEST(ContinuedBall, FullAndEmptyVolumesHaveNoPreference) {
 TEST(ContinuedBall, NormalsOfACutPlaneStayNearTheTruth) {
   const Vec3 n = Vec3(1, 2, 3).normalized();
   const BinaryVolume volume = half_space(n, {30, 30, 29}, {0, 0, 0}, {30, 30, 30});
-  ExtractOptions open;
-  open.border = Border::open;
-  DigitalSurface surface = extract_surface(volume, open);
-  const auto worst_and_mean = [&](Beyond beyond) {
-    const NormalReport report = integral_invariant_normals(
-        surface, volume, {.radius = 6, .centre = BallCentre::surfel, .beyond = beyond});
-    EXPECT_EQ(report.cut_faces > 0, beyond == Beyond::continued);
-    double worst = 0, sum = 0;
-    for (Index f = 0; f < surface.face_count(); ++f) {
-      const double angle = std::acos(std::min(1., surface.normals()[f].dot(n))) * 180 / M_PI;
-      worst = std::max(worst, angle);
-      sum += angle;
-    }
-    return std::pair{worst, sum / static_cast<double>(surface.face_count())};
-  };
-  const auto [worst, mean] = worst_and_mean(Beyond::continued);
-  EXPECT_LT(mean, 2.);  // degrees; about one far from the border
-  EXPECT_LT(worst, 25.);
-  const auto [cut_worst, cut_mean] = worst_and_mean(Beyond::empty);
-  EXPECT_GT(cut_worst, 2 * worst);
-  EXPECT_GT(cut_mean, 2 * mean);
+  const auto [whole, cut] = test::expect_near_truth_at_open_border(volume, n);
+  EXPECT_GT(cut.worst, 2 * whole.worst);
+  EXPECT_GT(cut.mean, 2 * whole.mean);
 }
 
 }  // namespace

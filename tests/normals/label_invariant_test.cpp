@@ -4,6 +4,7 @@
 #include "libdsc/normals/surface_normals.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
+#include "tests/normals/normals_support.h"
 
 #include <gtest/gtest.h>
 
@@ -152,29 +153,9 @@ TEST(InterfaceNormals, ContinueBeyondAnOpenBorder) {
       }
     }
   }
-  ExtractOptions open;
-  open.border = Border::open;
-  DigitalSurface surface = extract_surface(volume, open);
-  const auto worst_and_mean = [&](Beyond beyond) {
-    IntegralInvariantOptions options;
-    options.radius = 6;
-    options.beyond = beyond;
-    const NormalReport report = integral_invariant_normals(surface, volume, options);
-    EXPECT_EQ(report.cut_faces > 0, beyond == Beyond::continued);
-    double worst = 0, sum = 0;
-    for (Index f = 0; f < surface.face_count(); ++f) {
-      const double angle = std::acos(std::min(1., surface.normals()[f].dot(n))) * 180 / M_PI;
-      worst = std::max(worst, angle);
-      sum += angle;
-    }
-    return std::pair{worst, sum / static_cast<double>(surface.face_count())};
-  };
-  const auto [worst, mean] = worst_and_mean(Beyond::continued);
-  EXPECT_LT(mean, 2.);  // degrees; about one far from the border
-  EXPECT_LT(worst, 25.);
-  const auto [cut_worst, cut_mean] = worst_and_mean(Beyond::empty);
-  EXPECT_GT(cut_worst, worst);
-  EXPECT_GT(cut_mean, 1.5 * mean);
+  const auto [whole, cut] = test::expect_near_truth_at_open_border(volume, n);
+  EXPECT_GT(cut.worst, whole.worst);
+  EXPECT_GT(cut.mean, 1.5 * whole.mean);
 }
 
 }  // namespace

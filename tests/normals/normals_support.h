@@ -2,9 +2,16 @@
 /// Volumes and surfels for the tests of normals, made by the plainest means.
 #pragma once
 
+#include "libdsc/normals/surface_normals.h"
+#include "libdsc/surface/digital_surface.h"
+#include "libdsc/surface/extract.h"
 #include "libdsc/surface/surfel.h"
 #include "libdsc/voxels/binary_volume.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -62,6 +69,40 @@ inline std::vector<Surfel> all_surfels(const BinaryVolume& volume) {
     }
   }
   return surfels;
+}
+
+/// Angles in degrees.
+struct Angles {
+  double worst = 0, mean = 0;
+};
+
+/// Between n and the normals of the surface of a volume that a plane of normal n cuts in two, the
+/// plane going on, or not, beyond the open border.
+template <class Volume>
+Angles angles_at_open_border(const Volume& volume, const Vec3& n, Beyond beyond) {
+  ExtractOptions open;
+  open.border = Border::open;
+  DigitalSurface surface = extract_surface(volume, open);
+  const NormalReport report = integral_invariant_normals(
+      surface, volume, {.radius = 6, .centre = BallCentre::surfel, .beyond = beyond});
+  EXPECT_EQ(report.cut_faces > 0, beyond == Beyond::continued);
+  Angles angles;
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    const double angle = std::acos(std::min(1., surface.normals()[f].dot(n))) * 180 / M_PI;
+    angles.worst = std::max(angles.worst, angle);
+    angles.mean += angle / static_cast<double>(surface.face_count());
+  }
+  return angles;
+}
+
+/// Where balls go on beyond the border the normals stay near the truth. \return their angles, and
+/// those where balls end there.
+template <class Volume>
+std::array<Angles, 2> expect_near_truth_at_open_border(const Volume& volume, const Vec3& n) {
+  const Angles whole = angles_at_open_border(volume, n, Beyond::continued);
+  EXPECT_LT(whole.mean, 2.);  // degrees; about one far from the border
+  EXPECT_LT(whole.worst, 25.);
+  return {whole, angles_at_open_border(volume, n, Beyond::empty)};
 }
 
 }  // namespace dsc::test
