@@ -1,14 +1,9 @@
 // Systems that have no answer, or hardly one, by every method: an error, or an answer whose
 // residual is what is promised, summed here once more in long doubles.
-#include "libdsc/base/error.h"
 #include "libdsc/solve/matrix_free.h"
 #include "libdsc/solve/multigrid.h"
-#include "libdsc/solve/spd_solver.h"
 #include "libdsc/solve/spectrum.h"
-#ifdef DSC_TEST_CHOLMOD
-#include "libdsc/solve/cholmod_solver.h"
-#endif
-#include "tests/solve/grid_systems.h"
+#include "tests/solve/solvers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,4 @@
-#include "libdsc/solve/spd_solver.h"
-
-#include "libdsc/base/error.h"
-#ifdef DSC_TEST_CHOLMOD
-#include "libdsc/solve/cholmod_solver.h"
-#endif
-#include "tests/solve/grid_systems.h"
+#include "tests/solve/solvers.h"
 
 #include <gtest/gtest.h>
 
