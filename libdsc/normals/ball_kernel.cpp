@@ -1,19 +1,11 @@
 #include "libdsc/normals/ball_kernel.h"
 
+#include "libdsc/normals/nibble_tables.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
-
-#include <immintrin.h>
-
-#define DSC_AVX2 __attribute__((target("avx2")))
 
 namespace dsc::detail {
 namespace {
-
-/// The same 16 bytes in both halves: a byte shuffle looks up within each half.
-DSC_AVX2 inline __m256i table(char a, char b, char c, char d, char e, char f, char g, char h,
-                              char i, char j, char k, char l, char m, char n, char o, char p) {
-  return _mm256_broadcastsi128_si256(_mm_setr_epi8(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p));
-}
 
 DSC_AVX2 inline std::int64_t sum64(__m256i v) {
   const __m128i halves = _mm_add_epi64(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
@@ -30,16 +22,11 @@ template <bool kTwoWords>
 DSC_AVX2 KernelSums run(const BallStrip* const* strips, const BallWords* words, int slices,
                         int shift) {
   const __m256i zero = _mm256_setzero_si256();
-  const __m256i nibble = _mm256_set1_epi8(0x0f);
   const __m256i one8 = _mm256_set1_epi8(1);
   const __m256i one16 = _mm256_set1_epi16(1);
-  const __m256i count = table(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
-  const __m256i place_low = table(0, 0, 1, 1, 2, 2, 3, 3, 3, 3, 4, 4, 5, 5, 6, 6);
-  const __m256i place_high = table(0, 4, 5, 9, 6, 10, 11, 15, 7, 11, 12, 16, 13, 17, 18, 22);
+  const auto [count, place_low, place_high, byte1, byte2] = nibble_tables();
   const __m256i square_low = table(0, 6, 3, 9, 1, 7, 4, 10, 0, 6, 3, 9, 1, 7, 4, 10);
   const __m256i square_high = table(0, 0, 1, 1, 3, 3, 4, 4, 6, 6, 7, 7, 9, 9, 10, 10);
-  const __m256i byte1 = table(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-  const __m256i byte2 = table(0, 1, 4, 9, 16, 25, 36, 49, 0, 1, 4, 9, 16, 25, 36, 49);
   const __m256i byte8 = _mm256_slli_epi16(byte1, 3);  // no carry between bytes: 8 * 7 < 256
   const __m256i lanes64 = _mm256_setr_epi64x(0, 2, 4, 6);
   const __m256i lanes32 = _mm256_setr_epi32(0, 0, 2, 2, 4, 4, 6, 6);
@@ -67,14 +54,10 @@ DSC_AVX2 KernelSums run(const BallStrip* const* strips, const BallWords* words, 
         }
         bits = _mm256_and_si256(
             bits, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(strip->masks + g)));
-        const __m256i lo = _mm256_and_si256(bits, nibble);
-        const __m256i hi = _mm256_and_si256(_mm256_srli_epi16(bits, 4), nibble);
-        c = _mm256_add_epi8(
-            c, _mm256_add_epi8(_mm256_shuffle_epi8(count, lo), _mm256_shuffle_epi8(count, hi)));
-        t = _mm256_add_epi8(t, _mm256_add_epi8(_mm256_shuffle_epi8(place_low, lo),
-                                               _mm256_shuffle_epi8(place_high, hi)));
-        q = _mm256_add_epi8(q, _mm256_add_epi8(_mm256_shuffle_epi8(square_low, lo),
-                                               _mm256_shuffle_epi8(square_high, hi)));
+        const Nibbles nibbles = nibbles_of(bits);
+        c = _mm256_add_epi8(c, looked_up(count, count, nibbles));
+        t = _mm256_add_epi8(t, looked_up(place_low, place_high, nibbles));
+        q = _mm256_add_epi8(q, looked_up(square_low, square_high, nibbles));
         c1 = _mm256_add_epi64(c1, _mm256_sad_epu8(c, zero));
         c2 = _mm256_add_epi64(c2, c1);
         p1 = _mm256_add_epi16(

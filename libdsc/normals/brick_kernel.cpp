@@ -1,19 +1,11 @@
 #include "libdsc/normals/brick_kernel.h"
 
+#include "libdsc/normals/nibble_tables.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
-
-#include <immintrin.h>
-
-#define DSC_AVX2 __attribute__((target("avx2")))
-#define DSC_AVX2_INLINE __attribute__((target("avx2"), always_inline)) inline
 
 namespace dsc::detail {
 namespace {
-
-DSC_AVX2_INLINE __m256i table(char a, char b, char c, char d, char e, char f, char g, char h,
-                              char i, char j, char k, char l, char m, char n, char o, char p) {
-  return _mm256_broadcastsi128_si256(_mm_setr_epi8(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p));
-}
 
 /// The sums of eight 32-bit lanes of each of four registers.
 DSC_AVX2_INLINE __m128i sums_of(__m256i a, __m256i b, __m256i c, __m256i d) {
@@ -66,16 +58,11 @@ class Counter {
   /// 1, x, y, z over bits & mask; second moments stay inside.
   DSC_AVX2_INLINE __m128i add(const BrickBits& bits, const BrickBits& mask) {
     const __m256i zero = _mm256_setzero_si256();
-    const __m256i nibble = _mm256_set1_epi8(0x0f);
     const __m256i one16 = _mm256_set1_epi16(1);
-    const __m256i count = table(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
-    const __m256i place_low = table(0, 0, 1, 1, 2, 2, 3, 3, 3, 3, 4, 4, 5, 5, 6, 6);
-    const __m256i place_high = table(0, 4, 5, 9, 6, 10, 11, 15, 7, 11, 12, 16, 13, 17, 18, 22);
+    const auto [count, place_low, place_high, byte1, byte2] = nibble_tables();
     const __m256i square_low = table(0, 0, 1, 1, 4, 4, 5, 5, 9, 9, 10, 10, 13, 13, 14, 14);
     const __m256i square_high =
         table(0, 16, 25, 41, 36, 52, 61, 77, 49, 65, 74, 90, 85, 101, 110, 126);
-    const __m256i byte1 = table(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i byte2 = table(0, 1, 4, 9, 16, 25, 36, 49, 0, 1, 4, 9, 16, 25, 36, 49);
     const __m256i lane = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
 
     const auto* from = reinterpret_cast<const __m256i*>(bits.data());
@@ -85,15 +72,11 @@ class Counter {
     for (int half = 0; half < 2; ++half) {
       const __m256i v =
           _mm256_and_si256(_mm256_loadu_si256(from + half), _mm256_loadu_si256(by + half));
-      const __m256i lo = _mm256_and_si256(v, nibble);
-      const __m256i hi = _mm256_and_si256(_mm256_srli_epi16(v, 4), nibble);
-      c[half] = _mm256_add_epi8(_mm256_shuffle_epi8(count, lo), _mm256_shuffle_epi8(count, hi));
-      t[half] =
-          _mm256_add_epi8(_mm256_shuffle_epi8(place_low, lo), _mm256_shuffle_epi8(place_high, hi));
+      const Nibbles nibbles = nibbles_of(v);
+      c[half] = looked_up(count, count, nibbles);
+      t[half] = looked_up(place_low, place_high, nibbles);
       // At most 14 + 126: unsigned.
-      q[half] = _mm256_sad_epu8(_mm256_add_epi8(_mm256_shuffle_epi8(square_low, lo),
-                                                _mm256_shuffle_epi8(square_high, hi)),
-                                zero);
+      q[half] = _mm256_sad_epu8(looked_up(square_low, square_high, nibbles), zero);
     }
     const __m256i c_both = _mm256_add_epi8(c[0], c[1]);
     const __m256i t_both = _mm256_add_epi8(t[0], t[1]);
