@@ -8,14 +8,23 @@
 #include <string>
 
 namespace dsc {
+namespace {
 
-LaplaceBeltrami::LaplaceBeltrami(const FlatMesh& mesh, const LaplaceBeltramiOptions& options,
-                                 const Context& context) {
+LaplaceSystem assembled(const FlatMesh& mesh, const LaplaceBeltramiOptions& options,
+                        const Context& context) {
   if (!(options.time >= 0 && std::isfinite(options.time))) {
     throw UsageError("laplacian: the time " + std::to_string(options.time) +
                      " is negative or not finite");
   }
-  system_ = assemble_laplacian(mesh, options.calculus, context);
+  return assemble_laplacian(mesh, options.calculus, context);
+}
+
+}  // namespace
+
+LaplaceBeltrami::LaplaceBeltrami(const FlatMesh& mesh, const LaplaceBeltramiOptions& options,
+                                 const Context& context)
+    : system_(assembled(mesh, options, context))  // in place: an assignment would copy the matrix
+{
   weight_ = system_.mass;
   for (double& w : weight_) {
     if (w == 0) w = 1;
