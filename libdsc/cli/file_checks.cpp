@@ -5,6 +5,7 @@
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/results.h"
 #include "libdsc/io/standard_stream.h"
+#include "libdsc/io/volume_writer.h"
 #include "libdsc/page/page.h"
 #include "libdsc/render/glb_file.h"
 
@@ -79,7 +80,12 @@ void check_files(const Options& o) {
     }
   }
   for (const std::string& path : o.outputs) {
-    if (is_page_path(path)) {
+    if (o.command == Command::voxels) {
+      check_volume_path(path);
+    } else if (is_written_volume_path(path)) {
+      throw UsageError("'" + path + "' is a volume, which only dsc voxels writes; dsc " +
+                       name_of(o.command) + " writes " + result_endings());
+    } else if (is_page_path(path)) {
       check_page_path(path);
     } else {
       const bool drawn = is_picture_path(path) || render::is_glb_path(path);

@@ -40,6 +40,18 @@ std::string help_footer(Command command) {
              "  dsc info labels.npy --label 3 --label 4 --report counts.json\n"
              "  dsc info shape:torus,R=2,r=0.5 --gridstep 0.05\n"
              "  dsc info mesh.obj";
+    case Command::voxels:
+      return "Voxels inside are written as 1, the others as 0; with --labels all each voxel as its "
+             "label,\n"
+             "up to 255 in .vol. Spacing and place in the world are kept by .vti, the spacing by "
+             ".vol and\n"
+             ".longvol, neither by .npy; what is lost is warned of.\n"
+             "Examples:\n"
+             "  dsc voxels shape:torus --gridstep 0.02 -o torus.vol\n"
+             "  dsc voxels ct.nii.gz --threshold 300,3000 -o bone.vti\n"
+             "  dsc voxels labels.nrrd --labels all -o labels.npy\n"
+             "  dsc voxels scan.raw --size 512,512,300 --type i16 --threshold 300,3000 -o vol:- |\n"
+             "    dsc surface vol:- -o scan.ply";
     case Command::surface:
       return "Examples:\n"
              "  dsc surface object.vol -o surface.ply\n"

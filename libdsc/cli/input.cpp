@@ -72,6 +72,7 @@ std::function<bool(const Surfel&)> part_within(const Grid& box, const Grid& grid
 
 bool uses_balls(const Options& options) {
   const bool wants_normals = options.command != Command::info &&
+                             options.command != Command::voxels &&
                              (options.command != Command::surface || options.regularise);
   return wants_normals && options.projected && options.estimator == Estimator::integral_invariant;
 }

@@ -25,6 +25,8 @@ void run_command(Run& run) {
   switch (run.options.command) {
     case Command::info:
       return run_info(run);
+    case Command::voxels:
+      return run_voxels(run);
     case Command::surface:
       return run_surface(run);
     case Command::normals:

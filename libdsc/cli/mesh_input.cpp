@@ -86,7 +86,8 @@ bool is_mesh_input(const Options& options) {
 void check_mesh_options(const Options& o) {
   const std::string name = "'" + o.input + "' is a mesh: ";
   if (!takes_meshes(o.command)) {
-    throw UsageError(name + name_of(o.command) + " works on voxels");
+    throw UsageError(name + "dsc " + name_of(o.command) +
+                     " works on voxels, which it does not have");
   }
   if (o.gridstep || o.threshold || !o.labels.empty() || o.labelled() || o.border ||
       o.adjacency != Adjacency::interior) {

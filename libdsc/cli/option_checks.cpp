@@ -6,7 +6,9 @@
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
 #include "libdsc/cli/picture_options.h"
+#include "libdsc/io/volume_writer.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -29,6 +31,12 @@ void check_have_effect(const Options& o) {
     throw UsageError(
         "--compare naive has no effect with --calculus naive, which it would be compared with; "
         "leave one of them out");
+  }
+  if (o.command == Command::voxels && o.given("--gridstep") && o.input.rfind("shape:", 0) != 0 &&
+      std::none_of(o.outputs.begin(), o.outputs.end(), keeps_spacing)) {
+    throw UsageError(
+        "--gridstep has no effect on a file's voxels in .npy, which has no room for a spacing: "
+        "leave it out or write .vti");
   }
   const bool balls = o.estimator == Estimator::integral_invariant;
   for (const char* option : {"--estimator", "--radius", "--centre"}) {

@@ -6,6 +6,7 @@
 #include "libdsc/cli/picture_options.h"
 #include "libdsc/io/mesh_reader.h"
 #include "libdsc/io/results.h"
+#include "libdsc/io/volume_writer.h"
 
 #include <string>
 
@@ -46,12 +47,32 @@ void add_raw(CLI::App& app, Options& o) {
   name_group(app, "Raw files");
 }
 
+/// Which of the voxels' faces make the surface, and how they are linked.
+void add_extraction(CLI::App& app, Options& o) {
+  app.add_option_function<std::vector<std::string>>(
+         "--between",
+         [&o](const std::vector<std::string>& all) {
+           for (const std::string& text : all) o.between.push_back(parse_labels(text, "--between"));
+         },
+         "of all labels' interfaces only that between A and B, 0 being the outside; again for more")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
+  add_choice(app, "--adjacency", o.adjacency,
+             {{"interior", Adjacency::interior}, {"exterior", Adjacency::exterior}},
+             "which surfels are linked where four meet at an edge (default: interior)");
+  add_choice(
+      app, "--border", o.border, {{"closed", Border::closed}, {"open", Border::open}},
+      "what happens where the object touches the border of the volume (default: closed; open "
+      "for a shape that its box cuts)");
+}
+
 }  // namespace
 
-void add_input(CLI::App& app, Options& o) {
+void add_input(CLI::App& app, Options& o, bool extracts) {
+  const std::string meshes = extracts ? ", a mesh file (" + mesh_endings() + ")" : "";
   app.add_option("INPUT", o.input,
-                 "a volume file (" + volume_endings() + ", or raw), a mesh file (" +
-                     mesh_endings() + ") or shape:NAME[,key=value...]")
+                 "a volume file (" + volume_endings() + ", or raw)" + meshes +
+                     " or shape:NAME[,key=value...]")
       ->type_name("");
   app.add_option("-i,--input", o.input, "INPUT by an option")->type_name("FILE");
   app.add_option_function<std::string>(
@@ -78,35 +99,28 @@ void add_input(CLI::App& app, Options& o) {
       ->type_name("N")
       ->allow_extra_args(false);
   add_choice(app, "--labels", o.all_labels, {{"all", true}},
-             "every value is a label, 0 the outside: extract every interface between two labels");
-  app.add_option_function<std::vector<std::string>>(
-         "--between",
-         [&o](const std::vector<std::string>& all) {
-           for (const std::string& text : all) o.between.push_back(parse_labels(text, "--between"));
-         },
-         "of all labels' interfaces only that between A and B, 0 being the outside; again for more")
-      ->type_name("A,B")
-      ->allow_extra_args(false);
-  add_choice(app, "--adjacency", o.adjacency,
-             {{"interior", Adjacency::interior}, {"exterior", Adjacency::exterior}},
-             "which surfels are linked where four meet at an edge (default: interior)");
-  add_choice(
-      app, "--border", o.border, {{"closed", Border::closed}, {"open", Border::open}},
-      "what happens where the object touches the border of the volume (default: closed; open "
-      "for a shape that its box cuts)");
+             extracts
+                 ? "every value is a label, 0 the outside: extract every interface between two "
+                   "labels"
+                 : "every value is a label, 0 the outside: write the labels (default: 1 for a "
+                   "voxel inside, 0 outside)");
+  if (extracts) add_extraction(app, o);
   name_group(app, "Input");
   add_raw(app, o);
 }
 
-void add_run(CLI::App& app, Options& o, bool writes) {
-  if (writes) {
+void add_run(CLI::App& app, Options& o, Writes writes) {
+  if (writes != Writes::nothing) {
+    const bool volumes = writes == Writes::volumes;
     app.add_option("-o,--output", o.outputs,
-                   "write the result here; again for more (" + result_endings() +
-                       ", .glb: for viewers, .png: a picture, .html: a page)")
+                   volumes
+                       ? "write the voxels here; again for more (" + written_volume_endings() + ")"
+                       : "write the result here; again for more (" + result_endings() +
+                             ", .glb: for viewers, .png: a picture, .html: a page)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     name_group(app, "Run");
-    add_picture(app, o);
+    if (!volumes) add_picture(app, o);
   }
   app.add_option("--report", o.report, "write counts, timings, memory and errors here as JSON")
       ->type_name("FILE");

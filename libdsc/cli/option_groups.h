@@ -8,10 +8,13 @@
 
 namespace dsc::cli {
 
-/// INPUT and which of its voxels are inside.
-void add_input(CLI::App& app, Options& o);
-/// Threads, report, quiet; and the outputs where the command `writes`.
-void add_run(CLI::App& app, Options& o, bool writes);
+/// INPUT and which of its voxels are inside; how their surface is extracted where the command
+/// `extracts` it.
+void add_input(CLI::App& app, Options& o, bool extracts);
+/// What a command writes.
+enum class Writes { nothing, results, volumes };
+/// Threads, report, quiet; and the outputs.
+void add_run(CLI::App& app, Options& o, Writes writes);
 /// How normals are estimated.
 void add_normals(CLI::App& app, Options& o);
 /// The same, and how operators are made from them, the Laplacian too or not.

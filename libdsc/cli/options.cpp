@@ -21,7 +21,7 @@ CLI::App& add_command(CLI::App& app, Options& o, Command command, const char* de
   CLI::App& sub = *app.add_subcommand(name_of(command), description);
   sub.footer(help_footer(command));
   sub.callback([&o, command] { o.command = command; });
-  add_input(sub, o);
+  add_input(sub, o, command != Command::voxels);
   return sub;
 }
 
@@ -48,12 +48,17 @@ void add_curvature(CLI::App& curvature, Options& o) {
   add_positive(curvature, "--lambda", o.curvature_lambda,
                "laplacian: weight of the stabilisation (default: none, since it biases curvature)");
   name_group(curvature, "Curvature");
-  add_run(curvature, o, true);
+  add_run(curvature, o, Writes::results);
 }
 
 void add_commands(CLI::App& app, Options& o) {
   CLI::App& info = add_command(app, o, Command::info, "count what a digital surface is made of");
-  add_run(info, o, false);
+  add_run(info, o, Writes::nothing);
+
+  CLI::App& voxels = add_command(app, o, Command::voxels,
+                                 "write the voxels that are inside, or their labels, as a volume");
+  add_run(voxels, o, Writes::volumes);
+  voxels.get_option("--output")->required();
 
   CLI::App& surface = add_command(app, o, Command::surface, "extract the surface");
   surface.add_flag("--regularise", o.regularise,
@@ -61,12 +66,12 @@ void add_commands(CLI::App& app, Options& o) {
                    "mesh with the same faces");
   name_group(surface, "Surface");
   add_normals(surface, o);
-  add_run(surface, o, true);
+  add_run(surface, o, Writes::results);
   surface.get_option("--output")->required();
 
   CLI::App& normals = add_command(app, o, Command::normals, "estimate a normal for every surfel");
   add_normals(normals, o);
-  add_run(normals, o, true);
+  add_run(normals, o, Writes::results);
 
   CLI::App& gradient =
       add_command(app, o, Command::gradient, "take the gradient of a function along the surface");
@@ -76,7 +81,7 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(gradient, "Function");
   add_calculus(gradient, o, false);
   add_compare(gradient, o);
-  add_run(gradient, o, true);
+  add_run(gradient, o, Writes::results);
 
   CLI::App& diffuse = add_command(app, o, Command::diffuse, "let heat spread from sources");
   add_sources(diffuse, o);
@@ -85,7 +90,7 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(diffuse, "Heat");
   add_calculus(diffuse, o, true);
   add_compare(diffuse, o);
-  add_run(diffuse, o, true);
+  add_run(diffuse, o, Writes::results);
 
   CLI::App& geodesic =
       add_command(app, o, Command::geodesic, "measure distances along the surface");
@@ -104,7 +109,7 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(geodesic, "Distance");
   add_calculus(geodesic, o, true);
   add_compare(geodesic, o);
-  add_run(geodesic, o, true);
+  add_run(geodesic, o, Writes::results);
 
   CLI::App& spectrum = add_command(app, o, Command::spectrum,
                                    "find the lowest frequencies of the surface and their shapes");
@@ -113,7 +118,7 @@ void add_commands(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 100000).description(""));
   name_group(spectrum, "Spectrum");
   add_calculus(spectrum, o, true);
-  add_run(spectrum, o, true);
+  add_run(spectrum, o, Writes::results);
 
   add_curvature(add_command(app, o, Command::curvature, "estimate how the surface bends"), o);
 
@@ -129,7 +134,7 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(laplacian, "Function");
   add_calculus(laplacian, o, true);
   add_compare(laplacian, o);
-  add_run(laplacian, o, true);
+  add_run(laplacian, o, Writes::results);
 
   CLI::App& poisson =
       add_command(app, o, Command::poisson, "solve Poisson's equation, Laplacian of u = EXPR");
@@ -144,7 +149,7 @@ void add_commands(CLI::App& app, Options& o) {
   name_group(poisson, "Equation");
   add_calculus(poisson, o, true);
   add_compare(poisson, o);
-  add_run(poisson, o, true);
+  add_run(poisson, o, Writes::results);
 }
 
 void check_input(const Options& o) {
@@ -238,6 +243,8 @@ const char* name_of(Command command) {
   switch (command) {
     case Command::info:
       return "info";
+    case Command::voxels:
+      return "voxels";
     case Command::surface:
       return "surface";
     case Command::normals:

@@ -22,6 +22,7 @@ namespace dsc::cli {
 
 enum class Command {
   info,
+  voxels,
   surface,
   normals,
   gradient,

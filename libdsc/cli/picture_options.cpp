@@ -22,6 +22,7 @@ enum class Shown { nothing, vertex_scalar, face_scalar, directions, vectors };
 Shown shown_by(const Options& o) {
   switch (o.command) {
     case Command::info:
+    case Command::voxels:
     case Command::surface:
       return Shown::nothing;
     case Command::normals:
@@ -135,6 +136,7 @@ void add_picture(CLI::App& app, Options& o) {
 }
 
 void check_picture_options(const Options& o) {
+  if (o.command == Command::voxels) return;  // its files are volumes
   const bool any = std::any_of(o.outputs.begin(), o.outputs.end(), is_picture_path);
   if (!any) {
     for (const char* option : kOptions) {

@@ -4,13 +4,14 @@
 #include "libdsc/base/parallel.h"
 #include "libdsc/io/atomic_file.h"
 #include "libdsc/io/path_extension.h"
+#include "libdsc/io/volume_headers.h"
 
 #include <zlib.h>
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -19,86 +20,36 @@
 namespace dsc {
 namespace {
 
+using detail::npy_header;
+using detail::vol_header;
+using detail::vti_header;
+
 enum class Format { kVol, kLongvol, kNpy, kVti };
 
-Format format_of(const std::string& path) {
+std::optional<Format> known_format(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension == ".vol") return Format::kVol;
   if (extension == ".longvol") return Format::kLongvol;
   if (extension == ".npy") return Format::kNpy;
   if (extension == ".vti") return Format::kVti;
-  throw UsageError("'" + path + "': the extension '" + extension +
-                   "' is no volume format; .vol, .longvol, .npy and .vti are written");
+  return std::nullopt;
 }
 
-std::string number(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+Format format_of(const std::string& path) {
+  if (const auto format = known_format(path)) return *format;
+  throw UsageError("'" + path + "': the extension '" + extension_of(path) +
+                   "' is no volume format; " + written_volume_endings() + " are written");
 }
 
-std::string vol_header(const Grid& grid, bool longvol, bool compress) {
-  const char* const axes[] = {"X", "Y", "Z"};
-  std::string text;
-  for (std::size_t a = 0; a < 3; ++a) {
-    text += std::string("Center-") + axes[a] + ": " + std::to_string(grid.size[a] / 2) + "\n";
+/// What the form has no room for.
+std::vector<std::string> left_out(Format format, const Grid& grid, const RigidMap& world) {
+  std::vector<std::string> names;
+  if (format == Format::kVti) return names;
+  if (format == Format::kNpy && grid.spacing != Vec3::Ones()) names.emplace_back("the spacing");
+  if (!world.is_identity() || grid.origin != Vec3::Zero()) {
+    names.emplace_back("the place in the world");
   }
-  for (std::size_t a = 0; a < 3; ++a) {
-    text += std::string(axes[a]) + ": " + std::to_string(grid.size[a]) + "\n";
-  }
-  if (grid.spacing != Vec3::Ones()) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      text += std::string("Spacing-") + axes[a] + ": " + number(grid.spacing[int(a)]) + "\n";
-    }
-  }
-  const std::string prefix = longvol ? "Lvoxel" : "Voxel";
-  return text + prefix + "-Size: " + (longvol ? "8" : "1") + "\nAlpha-Color: 0\n" + prefix +
-         "-Endian: 0\nInt-Endian: 0123\nVersion: " + (compress ? "3" : "2") + "\n.\n";
-}
-
-std::string npy_header(const Grid& grid, const std::string& descr) {
-  std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (" +
-                     std::to_string(grid.size[2]) + ", " + std::to_string(grid.size[1]) + ", " +
-                     std::to_string(grid.size[0]) + "), }";
-  text.append(63 - (10 + text.size()) % 64, ' ');  // the data begins at a multiple of 64
-  text += '\n';
-  const auto length = static_cast<unsigned>(text.size());
-  const std::string start = {'\x93',
-                             'N',
-                             'U',
-                             'M',
-                             'P',
-                             'Y',
-                             '\x01',
-                             '\x00',
-                             static_cast<char>(length & 255),
-                             static_cast<char>(length >> 8)};
-  return start + text;
-}
-
-/// The XML before the values, which are appended raw; voxels are the points of the image.
-std::string vti_header(const Grid& grid, const RigidMap& world, const std::string& type,
-                       bool compress) {
-  const auto numbers = [](const auto& v) {
-    std::string text;
-    for (Index i = 0; i < v.size(); ++i) text += (i > 0 ? " " : "") + number(v(i));
-    return text;
-  };
-  std::string extent;
-  for (const Index size : grid.size) {
-    extent += (extent.empty() ? "0 " : " 0 ") + std::to_string(size - 1);
-  }
-  const Mat3 rows = world.rotation.transpose();  // Eigen counts down the columns
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\"";
-  if (compress) text += " compressor=\"vtkZLibDataCompressor\"";
-  text += ">\n<ImageData WholeExtent=\"" + extent + "\" Origin=\"" + numbers(world(grid.origin)) +
-          "\" Spacing=\"" + numbers(grid.spacing) + "\"";
-  if (!world.rotation.isIdentity(0)) text += " Direction=\"" + numbers(rows.reshaped()) + "\"";
-  return text + ">\n<Piece Extent=\"" + extent +
-         "\">\n<PointData Scalars=\"values\">\n<DataArray type=\"" + type +
-         "\" Name=\"values\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n"
-         "</ImageData>\n<AppendedData encoding=\"raw\">\n_";
+  return names;
 }
 
 template <class T>
@@ -166,6 +117,7 @@ void write_slices(const std::string& path, const Grid& grid, const std::string& 
   file.write(header);
   Sink sink(file, compress);
   const Index slice = checked_product(grid.size[0], grid.size[1], "voxels of a slice");
+  context.need("write", checked_product(slice, sizeof(T), "bytes of a slice"));
   std::vector<T> values(static_cast<std::size_t>(slice));
   context.begin("write", grid.size[2]);
   for (Index z = 0; z < grid.size[2]; ++z) {
@@ -194,10 +146,11 @@ void write_vti(const std::string& path, const Grid& grid, const VolumeWriteOptio
   if (options.compress) {
     std::vector<std::vector<Bytef>> blocks(slices);
     parallel_for(context, grid.size[2], 1, [&](Index z, Index) {
+      uLongf size = compressBound(bytes);
+      context.need("write", static_cast<Index>(bytes + size));  // beside the blocks made so far
       std::vector<T> values(static_cast<std::size_t>(slice));
       fill(z, values.data());
       std::vector<Bytef>& block = blocks[static_cast<std::size_t>(z)];
-      uLongf size = compressBound(bytes);
       block.resize(size);
       if (compress(block.data(), &size, reinterpret_cast<const Bytef*>(values.data()), bytes) !=
           Z_OK) {
@@ -212,6 +165,7 @@ void write_vti(const std::string& path, const Grid& grid, const VolumeWriteOptio
     for (const auto& block : blocks) file.write(block.data(), block.size());
   } else {
     word(slices * bytes);
+    context.need("write", static_cast<Index>(bytes));
     std::vector<T> values(static_cast<std::size_t>(slice));
     for (Index z = 0; z < grid.size[2]; ++z) {
       context.check();
@@ -266,71 +220,115 @@ T fitting(From value, Index at, const Grid& grid, const std::string& path) {
   return static_cast<T>(value);
 }
 
-template <class From>
-void write_typed(const std::string& path, const Grid& grid, std::span<const From> values,
-                 const VolumeWriteOptions& options, const Context& context) {
+/// Writes what fill(z, to) puts to the X Y values of slice z; the forms that keep a type keep
+/// `Kept`, numpy's name of which is `descr`.
+template <class Kept, class Fill>
+std::vector<std::string> write_filled(const std::string& path, const Grid& grid,
+                                      const std::string& descr, const Fill& fill,
+                                      const VolumeWriteOptions& options, const Context& context) {
   const bool compress = options.compress;
+  const Format format = format_of(path);
+  switch (format) {
+    case Format::kVol:
+      write_slices<std::uint8_t>(path, grid, vol_header(grid, false, compress), compress, fill,
+                                 context);
+      break;
+    case Format::kLongvol:
+      write_slices<std::uint64_t>(path, grid, vol_header(grid, true, compress), compress, fill,
+                                  context);
+      break;
+    case Format::kNpy:
+      write_slices<Kept>(path, grid, npy_header(grid, descr), false, fill, context);
+      break;
+    case Format::kVti:
+      write_vti<Kept>(path, grid, options, fill, context);
+      break;
+  }
+  return left_out(format, grid, options.world);
+}
+
+/// The same of the values that slice_of(z) has. \throws InputError where one does not fit the form.
+template <class Kept, class SliceOf>
+std::vector<std::string> write_values(const std::string& path, const Grid& grid,
+                                      const SliceOf& slice_of, const VolumeWriteOptions& options,
+                                      const Context& context) {
   const Index slice = grid.size[0] * grid.size[1];
   const auto convert = [&](Index z, auto* to) {
     using T = std::remove_pointer_t<decltype(to)>;
+    const auto& values = slice_of(z);
     for (Index k = 0; k < slice; ++k) {
-      const Index at = z * slice + k;
-      to[k] = fitting<T>(values[static_cast<std::size_t>(at)], at, grid, path);
+      to[k] = fitting<T>(values[static_cast<std::size_t>(k)], z * slice + k, grid, path);
     }
   };
-  switch (format_of(path)) {
-    case Format::kVol:
-      return write_slices<std::uint8_t>(path, grid, vol_header(grid, false, compress), compress,
-                                        convert, context);
-    case Format::kLongvol:
-      return write_slices<std::uint64_t>(path, grid, vol_header(grid, true, compress), compress,
-                                         convert, context);
-    case Format::kNpy:
-      return write_slices<From>(path, grid, npy_header(grid, descr_of<From>()), false, convert,
-                                context);
-    case Format::kVti:
-      return write_vti<From>(path, grid, options, convert, context);
-  }
+  return write_filled<Kept>(path, grid, descr_of<Kept>(), convert, options, context);
+}
+
+/// The labels of a slice, x fastest.
+std::vector<Label> labels_of(const LabelVolume& volume, Index z) {
+  const Index3& size = volume.grid().size;
+  std::vector<Label> labels(static_cast<std::size_t>(size[0] * size[1]));
+  for (Index y = 0; y < size[1]; ++y) volume.row(y, z, labels.data() + y * size[0]);
+  return labels;
 }
 
 }  // namespace
 
-void write_volume(const std::string& path, const BinaryVolume& volume,
-                  const VolumeWriteOptions& options, const Context& context) {
+std::string written_volume_endings() { return ".vol, .longvol, .npy and .vti"; }
+
+bool is_written_volume_path(const std::string& path) { return known_format(path).has_value(); }
+
+bool keeps_spacing(const std::string& path) { return format_of(path) != Format::kNpy; }
+
+void check_volume_path(const std::string& path) {
+  (void)format_of(path);
+  check_writable(path);
+}
+
+std::vector<std::string> write_volume(const std::string& path, const BinaryVolume& volume,
+                                      const VolumeWriteOptions& options, const Context& context) {
   const Grid& grid = volume.grid();
-  const Format format = format_of(path);
   check_grid(grid, path);
   const auto fill = [&](Index z, auto* to) {
     for (Index y = 0; y < grid.size[1]; ++y) {
       for (Index x = 0; x < grid.size[0]; ++x) *to++ = volume(x, y, z) ? 1 : 0;
     }
   };
-  switch (format) {
-    case Format::kVol:
-      return write_slices<std::uint8_t>(path, grid, vol_header(grid, false, options.compress),
-                                        options.compress, fill, context);
-    case Format::kLongvol:
-      return write_slices<std::uint64_t>(path, grid, vol_header(grid, true, options.compress),
-                                         options.compress, fill, context);
-    case Format::kNpy:
-      return write_slices<std::uint8_t>(path, grid, npy_header(grid, "|b1"), false, fill, context);
-    case Format::kVti:
-      return write_vti<std::uint8_t>(path, grid, options, fill, context);
+  return write_filled<std::uint8_t>(path, grid, "|b1", fill, options, context);
+}
+
+std::vector<std::string> write_volume(const std::string& path, const LabelVolume& volume,
+                                      const VolumeWriteOptions& options, const Context& context) {
+  const Grid& grid = volume.grid();
+  check_grid(grid, path);
+  const auto slice_of = [&](Index z) { return labels_of(volume, z); };
+  switch (volume.largest()) {
+    case std::numeric_limits<std::uint8_t>::max():
+      return write_values<std::uint8_t>(path, grid, slice_of, options, context);
+    case std::numeric_limits<std::uint16_t>::max():
+      return write_values<std::uint16_t>(path, grid, slice_of, options, context);
+    default:
+      return write_values<std::uint32_t>(path, grid, slice_of, options, context);
   }
 }
 
-void write_volume(const std::string& path, const Grid& grid, const VoxelValues& values,
-                  const VolumeWriteOptions& options, const Context& context) {
+std::vector<std::string> write_volume(const std::string& path, const Grid& grid,
+                                      const VoxelValues& values, const VolumeWriteOptions& options,
+                                      const Context& context) {
   (void)format_of(path);
   check_grid(grid, path);
-  std::visit(
+  return std::visit(
       [&](auto span) {
+        using From = std::remove_cv_t<typename decltype(span)::element_type>;
         if (static_cast<Index>(span.size()) != grid.voxels()) {
           throw InputError("'" + path + "': " + std::to_string(span.size()) +
                            " values were given for a grid of " + std::to_string(grid.voxels()) +
                            " voxels");
         }
-        write_typed(path, grid, span, options, context);
+        const auto slice = static_cast<std::size_t>(grid.size[0] * grid.size[1]);
+        const auto slice_of = [&](Index z) {
+          return span.subspan(static_cast<std::size_t>(z) * slice, slice);
+        };
+        return write_values<From>(path, grid, slice_of, options, context);
       },
       values);
 }

@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<std::string> kCommands = {"info",     "surface",   "normals", "curvature",
                                             "gradient", "laplacian", "poisson", "diffuse",
-                                            "geodesic", "spectrum"};
+                                            "geodesic", "spectrum",  "voxels"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -184,6 +184,8 @@ const std::vector<Stage>& stages() {
       {"set up multigrid", Words{"poisson", "--rhs", "x*y"} + kFine, 600},
       {kWriting, Words{"surface"} + Words(kFine.begin(), kFine.begin() + 3)},
       {kWriting, Words{"normals"} + kFine, 60},
+      {"write", {"voxels", kBig}},
+      {"write", {"voxels", kBig, "--labels", "all"}, 300},
   };
   return all;
 }
@@ -212,15 +214,17 @@ TEST_P(InterruptStage, EndsWithinASecondAndLeavesWhatWasThere) {
   const Folder inputs;
   Words job;
   for (const std::string& word : stage.job) job.push_back(made_input(word, inputs));
+  const bool volumes = job[0] == "voxels";
+  const std::string old = volumes ? "r.vol" : "r.csv", other = volumes ? "r.vti" : "r.ply";
   for (const int after :
        testing::usually_or_long(std::vector<int>{10}, std::vector<int>{0, 20, 70, 150})) {
     // A stage shorter than it takes to see its name may be over: then once more.
     Interrupted run;
     for (int attempt = 0; attempt < 8 && !run.seen; ++attempt) {
       const Folder folder;
-      write_file(folder / "r.csv", "old");
+      write_file(folder / old, "old");
       Words words = job;
-      words = words + Words{"-o", folder / "r.csv", "-o", folder / "r.ply"};
+      words = words + Words{"-o", folder / old, "-o", folder / other};
       words = words + Words{"--report", folder / "r.json"};
       run = interrupt_in(stage.name, words, folder, std::chrono::milliseconds(after + stage.later));
       if (run.outcome.exit_code == 0) {
@@ -229,8 +233,8 @@ TEST_P(InterruptStage, EndsWithinASecondAndLeavesWhatWasThere) {
       }
       if (!run.seen) continue;
       EXPECT_EQ(run.outcome.exit_code, 130);
-      EXPECT_EQ(folder.names(), Words{"r.csv"});
-      EXPECT_TRUE(read_file(folder / "r.csv") == "old");
+      EXPECT_EQ(folder.names(), Words{old});
+      EXPECT_TRUE(read_file(folder / old) == "old");
       EXPECT_LT(run.took, kLimit);
     }
     EXPECT_TRUE(run.seen || after > 10) << "the stage was not met";  // a late signal may miss it

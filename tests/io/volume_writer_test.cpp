@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/io/read_binary.h"
+#include "libdsc/io/read_labels.h"
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shapes.h"
 #include "tests/io/temporary_folder.h"
@@ -89,6 +90,74 @@ TEST(VolumeWriter, NpyKeepsTheTypeOfTheValues) {
   expect_typed_roundtrip<std::int32_t>(path, {0, 1, -5, 2000000000});
   expect_typed_roundtrip<std::uint64_t>(path, {0, 1, 2, ~0ull});
   expect_typed_roundtrip<std::int64_t>(path, {0, 1, -2, INT64_MIN});
+}
+
+TEST(VolumeWriter, LabelsKeepTheirWidthWhereTheFormHasTypes) {
+  const TemporaryFolder folder;
+  const Grid grid{{3, 2, 2}, {1, 1, 1}, Vec3::Zero()};
+  for (const int width : {1, 2, 4}) {
+    LabelVolume labels(grid, width);
+    for (Index z = 0; z < 2; ++z) {
+      for (Index y = 0; y < 2; ++y) {
+        for (Index x = 0; x < 3; ++x) {
+          labels.set(x, y, z, labels.largest() - static_cast<Label>(x + 3 * (y + 2 * z)));
+        }
+      }
+    }
+    for (const char* name : {"v.longvol", "v.npy", "v.vti"}) {
+      SCOPED_TRACE(name);
+      EXPECT_EQ(write_volume(folder / name, labels), std::vector<std::string>{});
+      const LabelVolume back = read_labels(folder / name);
+      if (name != std::string("v.longvol")) {
+        EXPECT_EQ(back.largest(), labels.largest());
+      }
+      for (Index z = 0; z < 2; ++z) {
+        for (Index y = 0; y < 2; ++y) {
+          for (Index x = 0; x < 3; ++x) EXPECT_EQ(back(x, y, z), labels(x, y, z));
+        }
+      }
+    }
+    if (width == 1) {
+      write_volume(folder / "v.vol", labels);
+      EXPECT_EQ(read_labels(folder / "v.vol")(2, 1, 1), 244U);
+    } else {
+      expect_input_error([&] { write_volume(folder / "w.vol", labels); },
+                         {"w.vol", std::to_string(labels.largest()), "(0, 0, 0)"});
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "w.vol"));
+}
+
+TEST(VolumeWriter, WhatAFormHasNoRoomForIsReturned) {
+  const TemporaryFolder folder;
+  const std::string spacing = "the spacing", place = "the place in the world";
+  using Names = std::vector<std::string>;
+  const auto left_out = [&](const char* name, const Grid& grid, const RigidMap& world) {
+    VolumeWriteOptions options;
+    options.world = world;
+    const std::vector<float> values(static_cast<std::size_t>(grid.voxels()), 1.F);
+    const Names of_values = write_volume(folder / name, grid, std::span(values), options);
+    EXPECT_EQ(write_volume(folder / name, BinaryVolume(grid), options), of_values);
+    EXPECT_EQ(write_volume(folder / name, LabelVolume(grid, 2), options), of_values);
+    return of_values;
+  };
+  const Grid plain{{2, 2, 2}, {1, 1, 1}, Vec3::Zero()};
+  Grid spaced = plain, moved = plain;
+  spaced.spacing[2] = 2;
+  moved.origin[1] = -1;
+  RigidMap shifted, turned;
+  shifted.translation[0] = 1e-300;
+  turned.rotation << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  for (const char* name : {"v.vol", "v.longvol", "v.npy"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(left_out(name, plain, {}), Names{});
+    EXPECT_EQ(left_out(name, spaced, {}), name == std::string("v.npy") ? Names{spacing} : Names{});
+    for (const auto& [grid, world] :
+         {std::pair{moved, RigidMap{}}, {plain, shifted}, {plain, turned}}) {
+      EXPECT_EQ(left_out(name, grid, world), Names{place});
+    }
+  }
+  EXPECT_EQ(left_out("v.vti", spaced, turned), Names{});
 }
 
 TEST(VolumeWriter, ValuesThatDoNotFitAreRefusedAndNothingIsWritten) {

@@ -7,6 +7,7 @@
 namespace dsc::cli {
 
 void run_info(Run& run);
+void run_voxels(Run& run);
 void run_surface(Run& run);
 void run_normals(Run& run);
 void run_gradient(Run& run);
