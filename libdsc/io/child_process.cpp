@@ -170,10 +170,11 @@ ChildProcess::Ending ChildProcess::finish(const Context& context) {
   keep_errors();
   if (given_up_) {
     const auto seconds = static_cast<Index>(patience_.count());
-    return {"its reader sent nothing for " + std::to_string(seconds) +
-                " seconds and was given up; the file is damaged, or the disk or network too slow: "
-                "DSC_IMAGE_READER_SECONDS allows more",
-            false};
+    return {
+        "its reader sent nothing for " + std::to_string(seconds) +
+            " seconds and was given up; the file is damaged, or the disk or network too slow: " +
+            patience_variable_ + " allows more",
+        false};
   }
   if (WIFSIGNALED(status)) {
     return {std::string("its reader was ended by the signal '") + ::strsignal(WTERMSIG(status)) +

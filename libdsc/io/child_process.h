@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
@@ -28,8 +29,12 @@ class ChildProcess {
   /// gone might go on for ever. Only calls what a signal handler may.
   static void kill_all() noexcept;
 
-  /// It is given up, and killed, where it sends nothing and does not end for as long.
-  void set_patience(std::chrono::duration<double> patience) { patience_ = patience; }
+  /// It is given up, and killed, where it sends nothing and does not end for as long. The message
+  /// says which environment variable allows more.
+  void set_patience(std::chrono::duration<double> patience, std::string variable) {
+    patience_ = patience;
+    patience_variable_ = std::move(variable);
+  }
 
   /// The next bytes of its standard output, at most `bytes`; fewer only where the output ends, or
   /// where it was given up. \throws Cancelled within about a tenth of a second.
@@ -59,6 +64,7 @@ class ChildProcess {
 
   std::string error_text_;  ///< its end
   std::chrono::duration<double> patience_ = std::chrono::hours(24);
+  std::string patience_variable_;
   std::chrono::steady_clock::time_point last_sign_ = std::chrono::steady_clock::now();
   bool given_up_ = false;
 };

@@ -1,8 +1,8 @@
 /// \file
 /// \internal
-/// What goes through the pipe from the program dsc-image-reader to the process that started it: an
-/// ImageHeader, the values (x fastest, then y, then z), kImageEnd. Both run on one machine, so
-/// everything is as it lies in memory.
+/// What goes through the pipe from a program that reads volumes (dsc-image-reader) to the process
+/// that started it: an ImageHeader, the values (x fastest, then y, then z), kImageEnd. Both run on
+/// one machine, so everything is as it lies in memory.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct ImageHeader {
   std::int64_t size[3];  ///< voxels
   std::int32_t bytes;    ///< of a value: 1, 2, 4, 8
   std::int32_t kind;     ///< 0 unsigned, 1 signed, 2 float
-  double spacing[3];     ///< millimetres
-  double origin[3];      ///< centre of the first voxel, millimetres, LPS
-  double direction[9];   ///< row by row; columns are the axes of the volume in LPS
+  double spacing[3];     ///< world units; of images millimetres
+  double origin[3];      ///< centre of the first voxel in the world; of images LPS
+  double direction[9];   ///< row by row; columns are the axes of the volume in the world
 };
 static_assert(std::is_trivially_copyable_v<ImageHeader>);
 

@@ -1,6 +1,7 @@
 // Medical images through dsc-image-reader, against files written here from the formats'
 // descriptions.
 #include "libdsc/base/error.h"
+#include "libdsc/io/image_stream.h"
 #include "libdsc/io/read_binary.h"
 #include "libdsc/io/read_labels.h"
 #include "tests/io/image_variants.h"
@@ -312,7 +313,7 @@ TEST_F(Readers, OneThatHangsIsKilledUponCancellation) {
   // The header comes, the values do not.
   write_all(folder_ / "v.mha", mha_bytes(random_image(1)));
   use("echo $$ > '" + folder_ / "pid" + "'\n'" + DSC_IMAGE_READER + "' '" + folder_ / "v.mha" +
-      "' | head -c 168\nexec sleep 1000");
+      "' | head -c " + std::to_string(sizeof(detail::ImageHeader) + 8) + "\nexec sleep 1000");
   auto source = open_volume(image_);
   Monitor monitor;
   std::thread canceller([&] {
