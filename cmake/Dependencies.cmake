@@ -56,6 +56,9 @@ if(DSC_WITH_ITK)  # its targets: libdsc/io/itk/
     string(APPEND _dsc_missing "\n  ITK 5 (Debian: libinsighttoolkit5-dev)")
   endif()
 endif()
+if(DSC_WITH_OPENVDB)  # its target: libdsc/io/vdb/
+  dsc_require(OpenVDB "libopenvdb-dev libtbb-dev libboost-dev" 10)
+endif()
 
 if(_dsc_missing)
   message(FATAL_ERROR "libdsc needs what this system does not have:${_dsc_missing}\n"

@@ -1,5 +1,6 @@
 # The install tree: libraries, headers, the program, and what find_package(libdsc) and pkg-config read.
-# Its components are the packages of cmake/Packages.cmake: program, images (dsc-image-reader), library
+# Its components are the packages of cmake/Packages.cmake: program, images (dsc-image-reader), openvdb
+# (dsc-vdb-reader), library
 # (shared ones, for the program to run) and development.
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)

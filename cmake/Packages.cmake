@@ -1,5 +1,5 @@
 # Debian packages, by `cpack` in a build folder: dsc (the program), libdsc-dev (library, headers, CMake
-# and pkg-config files), where built so libdsc (the shared library) and dsc-image-reader.
+# and pkg-config files), where built so libdsc (the shared library), dsc-image-reader and dsc-vdb-reader.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME libdsc)
 set(CPACK_PACKAGE_CONTACT "libdsc developers <libdsc@localhost>")
@@ -27,11 +27,15 @@ endif()
 if(DSC_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL program)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dsc)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS dsc-image-reader)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "dsc-image-reader, dsc-vdb-reader")
 endif()
 if(DSC_WITH_ITK)
   list(APPEND CPACK_COMPONENTS_ALL images)
   set(CPACK_DEBIAN_IMAGES_PACKAGE_NAME dsc-image-reader)
+endif()
+if(DSC_WITH_OPENVDB)
+  list(APPEND CPACK_COMPONENTS_ALL openvdb)
+  set(CPACK_DEBIAN_OPENVDB_PACKAGE_NAME dsc-vdb-reader)
 endif()
 if(DSC_WITH_CHOLMOD)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libsuitesparse-dev, libopenblas-dev")

@@ -2,8 +2,8 @@
 # From a fresh clone to a result, with one command. On Debian 12 it installs what is missing; git
 # and ca-certificates, for the clone, are all that must be there before.
 #
-#   ./cmake/bootstrap.sh demo [FILE]   builds the program and shows its main job, on FILE (voxels,
-#                                      a medical image or a folder of its slices) or on a built-in
+#   ./cmake/bootstrap.sh demo [FILE]   builds the program and shows its main job, on FILE (voxels, also
+#                                      of OpenVDB, a medical image or a folder of its slices) or on a built-in
 #                                      shape; the results are in out/
 #   ./cmake/bootstrap.sh atlas         the same on two atlases of the brain, all their regions at
 #                                      once; needs another 60 MB of packages, for ITK
@@ -31,9 +31,10 @@ library_packages=(libeigen3-dev libopenmesh-dev zlib1g-dev libexpat1-dev libmeti
   libtbb-dev libcli11-dev nlohmann-json3-dev libjs-three)
 picture_packages=(libembree-dev libpng-dev)
 image_packages=(libinsighttoolkit5-dev)
+vdb_packages=(libopenvdb-dev libboost-dev)
 benchmark_packages=(libbenchmark-dev)
 docs_packages=(libjs-mathjax)
-test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${picture_packages[@]}" mricron-data chromium)
+test_packages=(libgtest-dev "${benchmark_packages[@]}" libsuitesparse-dev libopenblas-dev libcgal-dev "${image_packages[@]}" "${vdb_packages[@]}" "${picture_packages[@]}" mricron-data chromium)
 
 # Prints the packages of its arguments and of the tools that this system does not have.
 missing_packages() {
@@ -64,6 +65,7 @@ install_missing() {
     [[ $mode != test && $mode != benchmarks ]] || printf '     %s\n' 'Google Benchmark'
     [[ " $* " != *libembree* ]] || printf '     %s\n' 'Embree 3' 'libpng 1.6'
     [[ " $* " != *insighttoolkit* ]] || printf '     %s\n' 'ITK 5'
+    [[ " $* " != *openvdb* ]] || printf '     %s\n' 'OpenVDB 10, with the headers of Boost'
     say "Going on with what is there."
     return
   fi
@@ -118,14 +120,16 @@ case $mode in
     fi
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     packages=("${library_packages[@]}" "${picture_packages[@]}")
-    with_itk=()
+    with_readers=()
     case ${input,,} in
-      *.nii | *.nii.gz | *.nrrd | *.nhdr | *.mha | *.mhd | *.tif | *.tiff) with_itk=(-DDSC_WITH_ITK=ON) ;;
+      *.nii | *.nii.gz | *.nrrd | *.nhdr | *.mha | *.mhd | *.tif | *.tiff) with_readers=(-DDSC_WITH_ITK=ON) ;;
+      *.vdb) with_readers=(-DDSC_WITH_OPENVDB=ON) ;;
     esac
-    [[ ! -d $input ]] || with_itk=(-DDSC_WITH_ITK=ON)
-    ((${#with_itk[@]} == 0)) || packages+=("${image_packages[@]}")
+    [[ ! -d $input ]] || with_readers=(-DDSC_WITH_ITK=ON)
+    [[ ${with_readers[*]} != *ITK* ]] || packages+=("${image_packages[@]}")
+    [[ ${with_readers[*]} != *OPENVDB* ]] || packages+=("${vdb_packages[@]}")
     install_missing "${packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON "${with_itk[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON "${with_readers[@]}"
     exec ./cmake/demo.sh build/release/bin/dsc ${input:+"$input"}
     ;;
   atlas)

@@ -4,7 +4,7 @@
 #
 #   tests/nightly.sh [PART…] [-- CTEST OPTION…]
 #
-#   asan       every test under AddressSanitizer and UndefinedBehaviorSanitizer, CHOLMOD, ITK and CGAL too
+#   asan       every test under AddressSanitizer and UndefinedBehaviorSanitizer, CHOLMOD, ITK, OpenVDB and CGAL too
 #   tsan       every test under ThreadSanitizer, parallel loops on std::thread
 #   valgrind   the small tests of the optimised build under memcheck
 #   fuzz       every reader under libFuzzer, 10^7 executions each (tests/fuzz/run.sh); needs clang
@@ -42,7 +42,7 @@ test_all() {  # <preset> [<ctest option>…]
 }
 
 run_asan() {
-  build asan -DDSC_WITH_CHOLMOD=ON -DDSC_WITH_ITK=ON -DDSC_WITH_CGAL=ON
+  build asan -DDSC_WITH_CHOLMOD=ON -DDSC_WITH_ITK=ON -DDSC_WITH_OPENVDB=ON -DDSC_WITH_CGAL=ON
   # Leaks of other libraries' globals are not ours; an allocation too large is an exception, as it is
   # without the sanitizer.
   ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \
@@ -78,7 +78,7 @@ run_fuzz() { tests/fuzz/run.sh; }
 run_long() {
   build dev
   DSC_LONG_TESTS=1 test_all dev --tests-regex \
-    'ExtractRandom|RandomVolumesOfUpTo8|Killed|Interrupt|GeodesicConvergence|Truncated|CutImages'
+    'ExtractRandom|RandomVolumesOfUpTo8|Killed|Interrupt|GeodesicConvergence|Truncated|CutImages|Vdb'
 }
 
 failed=()

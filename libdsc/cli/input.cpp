@@ -23,6 +23,8 @@ class RespacedSource final : public VolumeSource {
   const std::string& path() const override { return source_->path(); }
   const Grid& grid() const override { return grid_; }
   RigidMap world() const override { return source_->world(); }
+  VolumeClass volume_class() const override { return source_->volume_class(); }
+  std::string grid_name() const override { return source_->grid_name(); }
   bool x_fastest() const override { return source_->x_fastest(); }
   void read(const std::function<void(const Slab&)>& take, const Context& context) override {
     source_->read(take, context);
@@ -105,14 +107,17 @@ Input read_file(Run& run) {
     selection.threshold = {(*options.threshold)[0], (*options.threshold)[1]};
   }
   selection.labels = options.labels;
-  std::unique_ptr<VolumeSource> source = options.raw ? open_raw_volume(options.input, *options.raw)
-                                                     : open_volume(options.input, run.context);
+  std::unique_ptr<VolumeSource> source =
+      options.raw ? open_raw_volume(options.input, *options.raw)
+                  : open_volume(options.input, {options.grid}, run.context);
   if (options.gridstep) {
     source = std::make_unique<RespacedSource>(std::move(source), *options.gridstep);
   }
   Input input;
   input.border = options.border.value_or(Border::closed);
   input.world = source->world();
+  input.grid_name = source->grid_name();
+  input.volume_class = source->volume_class();
   if (options.labelled()) {
     input.voxels = read_labels(*source, run.context);
   } else {
@@ -152,6 +157,9 @@ Input read_input(Run& run) {
   report.origin = input.world(grid.origin);
   report.direction = input.world.rotation;
   report.inside = inside;
+  report.grid = input.grid_name;
+  report.volume_class = input.volume_class;
+  report.chosen = run.options.threshold || !run.options.labels.empty() || labels != nullptr;
   if (labels != nullptr) {
     report.labels = static_cast<Index>(labels->labels(run.context).size());
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libdsc/cli/run.h"
+#include "libdsc/io/volume_source.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/binary_volume.h"
 #include "libdsc/voxels/implicit_shape.h"
@@ -10,6 +11,7 @@
 #include "libdsc/voxels/rigid_map.h"
 
 #include <memory>
+#include <string>
 #include <variant>
 
 namespace dsc::cli {
@@ -23,6 +25,8 @@ struct Input {
   std::variant<BinaryVolume, LabelVolume> voxels;
   std::unique_ptr<ImplicitShape> shape;
   RigidMap world;  ///< from the positions that are computed with to those that people give and get
+  std::string grid_name;  ///< of a .vdb file
+  VolumeClass volume_class = VolumeClass::values;
   Border border = Border::closed;
   std::function<bool(const Surfel&)> part;  ///< empty: all surfels
 

@@ -89,11 +89,12 @@ void check_mesh_options(const Options& o) {
     throw UsageError(name + "dsc " + name_of(o.command) +
                      " works on voxels, which it does not have");
   }
-  if (o.gridstep || o.threshold || !o.labels.empty() || o.labelled() || o.border ||
+  if (o.gridstep || o.grid || o.threshold || !o.labels.empty() || o.labelled() || o.border ||
       o.adjacency != Adjacency::interior) {
-    throw UsageError(name +
-                     "--gridstep, --threshold, --label, --labels, --between, --adjacency and "
-                     "--border are about voxels");
+    throw UsageError(
+        name +
+        "--gridstep, --grid, --threshold, --label, --labels, --between, --adjacency and "
+        "--border are about voxels");
   }
   if (o.radius || o.centre != BallCentre::surfel ||
       (o.estimator_given && o.estimator == Estimator::integral_invariant)) {

@@ -6,6 +6,7 @@
 #include "libdsc/cli/input.h"
 #include "libdsc/cli/mesh_input.h"
 #include "libdsc/cli/picture_options.h"
+#include "libdsc/io/path_extension.h"
 #include "libdsc/io/volume_writer.h"
 
 #include <algorithm>
@@ -82,6 +83,9 @@ void check_options(const Options& o) {
     throw UsageError("--centre pair is not there for labels: their ball is centred on the surfel");
   }
   if (shape && o.raw) throw UsageError("--size and --type describe a raw file, not a shape");
+  if (o.grid && (shape || o.raw || extension_of(o.input) != ".vdb")) {
+    throw UsageError("--grid names a grid of a .vdb file, and '" + o.input + "' is none");
+  }
   if (o.raw && (o.raw->size[0] == 0 || !o.raw_type)) {
     throw UsageError("a raw file needs --size X,Y,Z and --type u8 or another");
   }

@@ -82,6 +82,10 @@ void add_input(CLI::App& app, Options& o, bool extracts) {
          "file unless it says otherwise")
       ->type_name("H");
   app.add_option_function<std::string>(
+         "--grid", [&o](const std::string& name) { o.grid = name; },
+         "the grid of a .vdb file by its name (default: the only one that has numbers)")
+      ->type_name("NAME");
+  app.add_option_function<std::string>(
          "--threshold",
          [&o](const std::string& text) {
            const std::vector<double> n = parse_numbers(text, "--threshold");
@@ -90,7 +94,8 @@ void add_input(CLI::App& app, Options& o, bool extracts) {
            }
            o.threshold = {n[0], n[1]};
          },
-         "voxels with LO <= value <= HI are inside (default: every nonzero voxel)")
+         "voxels with LO <= value <= HI are inside (default: every nonzero voxel; in .vdb, of "
+         "a level set those with value < 0, of a fog volume those with value > 0)")
       ->type_name("LO,HI");
   add_number(app, "-m,--thresholdMin", o.above,
              "the same by two options: voxels with LO < value (default with -M: 0)");

@@ -51,6 +51,7 @@ struct Options {
   std::optional<std::array<double, 2>> threshold;  ///< inside is LO <= value <= HI
   std::optional<double> above, up_to;              ///< as typed by -m, -M: LO < value <= HI
   std::vector<std::int64_t> labels;                ///< inside is any of these
+  std::optional<std::string> grid;                 ///< of a .vdb file, by its name
   bool all_labels = false;                         ///< every value is a label, 0 the outside
   std::vector<LabelPair> between;                  ///< so too; only these interfaces
   std::optional<Border> border;                    ///< not given: open for shapes cut by their box

@@ -24,6 +24,11 @@ Json json_of(const InputReport& input) {
                {"origin", numbers(input.origin)},
                {"direction", {numbers(d.row(0)), numbers(d.row(1)), numbers(d.row(2))}},
                {"voxels_inside", input.inside}};
+  if (!input.grid.empty()) {
+    json["grid"] = input.grid;
+    if (input.volume_class != VolumeClass::values) json["class"] = name_of(input.volume_class);
+    if (!input.chosen) json["inside_where"] = inside_of(input.volume_class);
+  }
   if (input.labels) json["labels"] = *input.labels;
   return json;
 }
@@ -138,6 +143,30 @@ Json json_of(const std::string& name, const ErrorNorms& e) {
 }
 
 }  // namespace
+
+const char* name_of(VolumeClass volume_class) {
+  switch (volume_class) {
+    case VolumeClass::level_set:
+      return "level set";
+    case VolumeClass::fog_volume:
+      return "fog volume";
+    case VolumeClass::values:
+      break;
+  }
+  return "";
+}
+
+const char* inside_of(VolumeClass volume_class) {
+  switch (volume_class) {
+    case VolumeClass::level_set:
+      return "value < 0";
+    case VolumeClass::fog_volume:
+      return "value > 0";
+    case VolumeClass::values:
+      break;
+  }
+  return "value != 0";
+}
 
 Index peak_memory_bytes() {
   rusage usage{};

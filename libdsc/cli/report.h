@@ -20,8 +20,16 @@ struct InputReport {
   Vec3 origin{0., 0., 0.};            ///< world position of the centre of voxel (0, 0, 0)
   Mat3 direction = Mat3::Identity();  ///< columns: the world directions of the volume's axes
   Index inside = 0;                   ///< voxels
-  std::optional<Index> labels;        ///< of a label image: how many labels occur, 0 left out
+  std::string grid;                   ///< of a .vdb file: its name
+  VolumeClass volume_class = VolumeClass::values;
+  bool chosen = false;          ///< which values are inside was said on the command line
+  std::optional<Index> labels;  ///< of a label image: how many labels occur, 0 left out
 };
+
+/// "level set" or "fog volume"; "" for others.
+const char* name_of(VolumeClass volume_class);
+/// Which values are inside where the class decides: "value < 0", "value > 0", "value != 0".
+const char* inside_of(VolumeClass volume_class);
 
 /// Of a mesh file, in place of InputReport.
 struct MeshInputReport {

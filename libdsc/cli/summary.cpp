@@ -43,6 +43,13 @@ std::string text_of(const InputReport& input) {
                                   : fmt::format("{:g} x {:g} x {:g}", h[0], h[1], h[2]);
   std::string text = fmt::format("{}: {} x {} x {} voxels of {}, {} inside", input.name, x, y, z,
                                  spacing, input.inside);
+  if (!input.grid.empty()) {
+    text += ", grid '" + input.grid + "'";
+    if (input.volume_class != VolumeClass::values) {
+      text += std::string(", a ") + name_of(input.volume_class);
+      if (!input.chosen) text += std::string(" (") + inside_of(input.volume_class) + ")";
+    }
+  }
   if (input.labels) text += ", " + counted(*input.labels, "label", "labels");
   return text;
 }

@@ -162,9 +162,20 @@ void VoxelSelection::check() const {
   }
 }
 
-BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& selection,
+VoxelSelection VoxelSelection::completed(VolumeClass volume_class) const {
+  VoxelSelection selection = *this;
+  if (threshold || !labels.empty()) return selection;
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  if (volume_class == VolumeClass::level_set) selection.threshold = {-kEnd, -kLeast};
+  if (volume_class == VolumeClass::fog_volume) selection.threshold = {kLeast, kEnd};
+  return selection;
+}
+
+BinaryVolume read_binary(VolumeSource& source, const VoxelSelection& given,
                          const Context& context) {
-  selection.check();
+  given.check();
+  const VoxelSelection selection = given.completed(source.volume_class());
   context.need("read", BinaryVolume::bytes_for(source.grid()));
   BinaryVolume volume(source.grid());
   context.begin("read", source.grid().size[source.x_fastest() ? 2 : 0]);

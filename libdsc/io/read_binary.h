@@ -13,8 +13,9 @@
 
 namespace dsc {
 
-/// The values that are inside: by default every value but 0, else those in a closed interval or
-/// those of a list, not both. NaN is never inside.
+/// The values that are inside: those in a closed interval or those of a list, not both; by default
+/// every value but 0, of a level set those below 0, of a fog volume those above 0. NaN is never
+/// inside.
 struct VoxelSelection {
   /// Closed: both ends are inside.
   struct Interval {
@@ -26,6 +27,8 @@ struct VoxelSelection {
 
   /// \throws UsageError where both are given, or the interval is empty or NaN.
   void check() const;
+  /// The same, and where neither is given, the interval that the class of the values implies.
+  VoxelSelection completed(VolumeClass volume_class) const;
 };
 
 /// Reads `source` in slabs; memory is one bit a voxel and one slab. Interval and labels are

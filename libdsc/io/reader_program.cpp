@@ -78,8 +78,11 @@ int run_reader(const ReaderMain& reader, int argc, char** argv) {
   limit_resources(static_cast<rlim_t>(request->bytes));
   try {
     const std::unique_ptr<Image> image = reader.open(*request);
-    const ImageHeader header = image->header();
+    const std::string part = image->part().substr(0, kLongestName);
+    ImageHeader header = image->header();
+    header.name_bytes = static_cast<std::int32_t>(part.size());
     write_all(&header, sizeof header);
+    write_all(part.data(), part.size());
     image->read(write_all);
     write_all(kImageEnd, sizeof kImageEnd);
     return 0;

@@ -37,7 +37,10 @@ class Image {
   Image(const Image&) = delete;
   Image& operator=(const Image&) = delete;
   virtual ~Image() = default;
+  /// Its name_bytes are set by who sends it.
   virtual ImageHeader header() const = 0;
+  /// The name of the part of the file that it is, where the file holds several.
+  virtual std::string part() const { return {}; }
   virtual void read(const TakeBytes& take) = 0;
 };
 

@@ -84,12 +84,19 @@ class ReaderSource final : public VolumeSource {
       take(header);
     } catch (const InputError& error) {
       throw InputError("'" + path + "': " + error.what());
+    } catch (const LimitError& error) {
+      throw LimitError("'" + path + "': " + error.what());
     }
+    grid_name_.resize(static_cast<std::size_t>(header.name_bytes));
+    receive(grid_name_.data(), header.name_bytes, context);
+    grid_name_ = printable(std::move(grid_name_));
   }
 
   const std::string& path() const override { return path_; }
   const Grid& grid() const override { return grid_; }
   RigidMap world() const override { return world_; }
+  VolumeClass volume_class() const override { return class_; }
+  std::string grid_name() const override { return grid_name_; }
   bool x_fastest() const override { return true; }
 
   void read(const std::function<void(const Slab&)>& take_slab, const Context& context) override {
@@ -136,6 +143,11 @@ class ReaderSource final : public VolumeSource {
       throw InputError("values of " + std::to_string(header.bytes) + " bytes are not supported");
     }
     (void)checked_product(grid_.voxels(), type_.bytes, "bytes");
+    if (header.volume_class < 0 || header.volume_class > 2 || header.name_bytes < 0 ||
+        header.name_bytes > kLongestName) {
+      throw InputError("its reader sent a header that is none");
+    }
+    class_ = static_cast<VolumeClass>(header.volume_class);
     Mat3 direction;
     for (int i = 0; i < 9; ++i) direction(i / 3, i % 3) = header.direction[i];
     world_ = rigid_map(direction, Vec3(header.origin));
@@ -146,6 +158,8 @@ class ReaderSource final : public VolumeSource {
   Grid grid_;
   RigidMap world_;
   ValueType type_;
+  VolumeClass class_ = VolumeClass::values;
+  std::string grid_name_;
 };
 
 }  // namespace

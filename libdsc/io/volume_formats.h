@@ -7,6 +7,7 @@
 #include "libdsc/io/volume_source.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dsc::detail {
@@ -20,6 +21,11 @@ std::unique_ptr<VolumeSource> open_raw(InputFile file, const RawLayout& layout);
 /// Whether dsc-image-reader is to read it: by its extension, or because it is a folder.
 bool is_image(const std::string& path);
 std::unique_ptr<VolumeSource> open_image(const std::string& path, const Context& context);
+
+/// By dsc-vdb-reader; `grid` as VolumeOptions has it.
+std::unique_ptr<VolumeSource> open_vdb(const std::string& path,
+                                       const std::optional<std::string>& grid,
+                                       const Context& context);
 
 /// Delivers the next bytes of the values.
 using ByteReader = std::function<void(void* to, Index bytes)>;

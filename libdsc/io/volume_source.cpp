@@ -2,6 +2,7 @@
 
 #include "libdsc/base/checked.h"
 #include "libdsc/base/error.h"
+#include "libdsc/io/input_file.h"
 #include "libdsc/io/path_extension.h"
 #include "libdsc/io/volume_formats.h"
 
@@ -73,7 +74,8 @@ void stream_slabs(Index slices, Index per_slice, const ValueType& type, const By
 }  // namespace detail
 
 std::string volume_endings() {
-  return ".vol, .longvol, .npy, .vox, .vti, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, .tif, .tiff, "
+  return ".vol, .longvol, .npy, .vox, .vti, .vdb, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, .tif, "
+         ".tiff, "
          "a "
          "folder of TIFF or DICOM slices";
 }
@@ -94,8 +96,14 @@ ValueType value_type(const std::string& name) {
   return type;
 }
 
-std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context) {
+std::unique_ptr<VolumeSource> open_volume(const std::string& path, const VolumeOptions& options,
+                                          const Context& context) {
   const std::string extension = extension_of(path);
+  if (extension == ".vdb") return detail::open_vdb(path, options.grid, context);
+  if (options.grid) {
+    throw UsageError("'" + path + "': the grid '" + detail::printable(*options.grid) +
+                     "' was asked for, and only .vdb files hold grids by name");
+  }
   if (extension == ".vol") return detail::open_vol(InputFile(path), false);
   if (extension == ".longvol") return detail::open_vol(InputFile(path), true);
   if (extension == ".npy") return detail::open_npy(InputFile(path));
@@ -108,6 +116,10 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context
   if (detail::is_image(path)) return detail::open_image(path, context);
   throw UsageError("'" + path + "': the extension '" + extension + "' is no volume format; " +
                    volume_endings() + " are read, and raw files with size and type");
+}
+
+std::unique_ptr<VolumeSource> open_volume(const std::string& path, const Context& context) {
+  return open_volume(path, VolumeOptions{}, context);
 }
 
 }  // namespace dsc

@@ -20,6 +20,9 @@ if(PROGRAM AND ITK)
     "ElementSpacing = 1 1 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678")
   run(${WORK}/prefix/${PROGRAM} info ${WORK}/v.mha)
 endif()
+if(VDB AND NOT EXISTS ${WORK}/prefix/${VDB})
+  message(FATAL_ERROR "${VDB} was not installed")
+endif()
 
 # pkg-config tells a build without CMake the same.
 find_program(pkg_config pkg-config)

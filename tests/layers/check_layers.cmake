@@ -15,6 +15,7 @@ set(restricted
   "^libdsc/truth/"                                "^truth/"
   "^(fstream|cstdio|stdio\\.h|filesystem|fcntl\\.h|sys/.*|zlib\\.h)$"  "^(io|page|cli)/"
   "^(itk|gdcm)"                                   "^io/itk/"
+  "^openvdb/"                                     "^io/vdb/"
   "^(tbb/|oneapi/|omp\\.h$|execution$|future$)"   "^base/"
   "^thread$"                                      "^(base|cli)/"
   "^(suitesparse/|cholmod|SuiteSparse|cblas|openblas)"  "^solve/cholmod_"
