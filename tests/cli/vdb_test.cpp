@@ -33,7 +33,7 @@ TEST(Vdb, InfoNamesTheGridAndWhatIsInside) {
   EXPECT_EQ(report["input"]["class"], "level set");
   EXPECT_EQ(report["input"]["inside_where"], "value < 0");
   EXPECT_EQ(report["input"]["spacing"][0], kSpacing);
-  EXPECT_EQ(report["surface"]["euler_characteristic"], 2);
+  EXPECT_EQ(report["surface"]["euler"], 2);
   Index inside = 0;
   for (int k = -40; k <= 40; ++k) {
     for (int j = -40; j <= 40; ++j) {
@@ -87,7 +87,7 @@ TEST(Vdb, DistancesAreThoseOfTheSameVoxelsInTheWorld) {
   for (std::size_t v = 0; v < here.vertices.size(); ++v) {
     const auto& p = here.vertices[v];
     const auto& q = there.vertices[v];
-    EXPECT_NEAR(p[3], q[3], 1e-9) << v;
+    EXPECT_NEAR(p[3], q[3], 1e-7) << v;  // the residual of the heat is some 1e-8
     const Vec3 place = Vec3(p[0], p[1], p[2]) + kSpacing * first;
     EXPECT_LT((turn * place + origin - Vec3(q[0], q[1], q[2])).norm(), 1e-9);
     const Vec3 out = (place - kSpacing * kCentre).normalized();
