@@ -15,6 +15,10 @@ results=$(mktemp)
 trap 'rm -f "$results" "$out"/*.part' EXIT
 
 brain=$(dpkg-query --listfiles mricron-data 2>/dev/null | grep '/aal.nii.gz$' || true)
+if [[ -n $brain && ! -x ${DSC_IMAGE_READER:-$programs/dsc-image-reader} ]]; then
+  echo "$brain is left out: reading it needs DSC_WITH_ITK=ON" >&2
+  brain=
+fi
 run() {
   local name=$1 program=$programs/$1
   shift
