@@ -4,9 +4,9 @@ const kFieldOfView = 28;  // degrees
 const kTurnPerPixel = 0.007;
 
 class Orbit {
-  /** `changed` is called after every move. */
-  constructor(canvas, changed) {
-    this.changed = changed;
+  /** `changed` is called after every move. The first view shows all of the `points`. */
+  constructor(canvas, points, changed) {
+    Object.assign(this, {points, changed});
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
     this.pointers = new Map();
     this.listen(canvas);
@@ -16,11 +16,26 @@ class Orbit {
   /** The first view, from in front and above, z up. */
   reset() {
     this.target = new THREE.Vector3();
-    this.distance = 1.38 / Math.tan(kFieldOfView / 2 * Math.PI / 180);
     const eye = new THREE.Matrix4().lookAt(
         new THREE.Vector3(0.55, -1, 0.5), new THREE.Vector3(), new THREE.Vector3(0, 0, 1));
     this.rotation = new THREE.Quaternion().setFromRotationMatrix(eye);
+    const slope = Math.tan(kFieldOfView / 2 * Math.PI / 180);
+    this.distance = Math.max(1.38 / slope, 1.04 * this.distanceToSeeAll(slope));
     this.changed();
+  }
+
+  /** A square view shows all points from there, and so does any other; `slope` is half its height at 1. */
+  distanceToSeeAll(slope) {
+    const {elements: e} = new THREE.Matrix4().makeRotationFromQuaternion(this.rotation);
+    const points = this.points;
+    let distance = 0;
+    for (let i = 0; i < points.length; i += 3) {
+      const along = (axis) =>  // of the screen: right, up, to the eye
+          e[4 * axis] * points[i] + e[4 * axis + 1] * points[i + 1] + e[4 * axis + 2] * points[i + 2];
+      const aside = Math.max(Math.abs(along(0)), Math.abs(along(1)));
+      distance = Math.max(distance, aside / slope + Math.max(0, along(2)));
+    }
+    return distance;
   }
 
   /** Around the axes of the screen, radians. */

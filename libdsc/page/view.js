@@ -20,7 +20,7 @@ class View {
     this.plane = null;
     this.picked = null;
     this.waiting = 0;
-    this.orbit = new Orbit(canvas, () => this.request());
+    this.orbit = new Orbit(canvas, model.points, () => this.request());
     window.addEventListener('resize', () => this.request());
     canvas.addEventListener('webglcontextrestored', () => this.request());
   }

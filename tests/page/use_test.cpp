@@ -132,6 +132,34 @@ class UsedPage : public testing::Test {
   std::vector<double> up, naive;
 };
 
+/// A cube fills the box that pages scale surfaces into, and its corners come closer than its faces.
+TEST_F(UsedPage, TheFirstViewShowsAllOfACube) {
+  const Index n = 12;
+  BinaryVolume voxels({{n, n, n}, {1, 1, 1}, Vec3::Zero()});
+  for (Index z = 0; z < n; ++z) {
+    for (Index y = 0; y < n; ++y) {
+      for (Index x = 0; x < n; ++x) voxels.set(x, y, z, true);
+    }
+  }
+  surface = extract_surface(voxels);
+  const FlatMesh mesh = surface.flat();
+  for (Index v = 0; v < mesh.vertices(); ++v) up.push_back(mesh.positions[v][2]);
+  write_page(folder / "used.html", {mesh, {scalar_field("up", FieldOn::vertex, up)}});
+  const std::string farthest =
+      "(() => { const {view, model} = page; const r = view.rectangles()[0];"
+      " const camera = view.orbit.cameraFor(r.width, r.height); let most = 0;"
+      " for (let i = 0; i < model.points.length; i += 3) {"
+      "   const p = new THREE.Vector3(...model.points.subarray(i, i + 3)).project(camera);"
+      "   most = Math.max(most, Math.abs(p.x), Math.abs(p.y));"
+      " } return most; })()";
+  const json seen = drive({size(1300, 800), value(farthest), size(420, 800, true), value(farthest),
+                           size(1600, 400), value(farthest)});
+  for (const json& most : seen) {
+    EXPECT_LT(most.get<double>(), 1.);
+    EXPECT_GT(most.get<double>(), 0.5);
+  }
+}
+
 TEST_F(UsedPage, CaptionsKeepClearOfTheSurfaceInAnyWindow) {
   write_two(0.1);
   std::vector<json> steps{value("page.view.orbit.zoom(0.1)")};
