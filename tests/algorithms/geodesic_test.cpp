@@ -6,6 +6,7 @@
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shapes.h"
 #include "tests/algorithms/meshes.h"
+#include "tests/support/memory_left.h"
 
 #include <gtest/gtest.h>
 
@@ -273,24 +274,13 @@ TEST(Geodesic, BadSourcesAndOptionsAreRefused) {
   EXPECT_THROW(GeodesicSolver(FlatMesh{}), InputError);
 }
 
-/// Room for `left` bytes, whatever is asked for.
-class Room final : public MemoryLimit {
- public:
-  explicit Room(Index left) : left_(left) {}
-  void need(std::string_view, Index) const override {}
-  Index left() const override { return left_; }
-
- private:
-  Index left_;
-};
-
 TEST(Geodesic, TheMethodFollowsTheMemoryThatIsLeft) {
   const BinaryVolume voxels = digitize(Sphere(1.), {0.1, 0.1, 0.1});
   const DigitalSurface surface = extract_surface(voxels);
   const VertexId source = 0;
   Eigen::VectorXd distances[2];
   for (const bool ample : {false, true}) {
-    const Room room(ample ? Index{1} << 40 : Index{1} << 20);
+    const test::MemoryLeft room(ample ? Index{1} << 40 : Index{1} << 20);
     const GeodesicSolver solver(surface.flat(), {}, {1, nullptr, &room});
     const GeodesicResult result = solver.distance({&source, 1});
     EXPECT_EQ(result.report.method, ample ? HeatMethod::direct : HeatMethod::bands);

@@ -6,6 +6,7 @@
 #include "libdsc/io/read_labels.h"
 #include "tests/io/image_variants.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/support/memory_left.h"
 
 #include <gtest/gtest.h>
 
@@ -225,20 +226,9 @@ TEST_F(Readers, TheirFailuresAreInputErrors) {
   expect("head -c 300000 /dev/zero | tr '\\0' '\\n' >&2; echo last >&2; exit 1", "last");
 }
 
-/// A limit that always has so much left.
-class Left final : public MemoryLimit {
- public:
-  explicit Left(Index bytes) : bytes_(bytes) {}
-  void need(std::string_view, Index) const override {}
-  Index left() const override { return bytes_; }
-
- private:
-  Index bytes_;
-};
-
 TEST_F(Readers, TheirExcessIsOutOfLimits) {
   use("echo \"no memory for $2 bytes\" >&2; exit 4");
-  const Left limit(12345);
+  const test::MemoryLeft limit(12345);
   expect_error<LimitError>(
       [&] {
         (void)open_volume(image_, {0, nullptr, &limit});
@@ -267,7 +257,7 @@ TEST_F(Images, TheMemoryThatIsLeftBoundsTheReader) {
   image.values.assign(48000000, 1);  // 96 MB in 100 KB
   write_all(folder_ / "v.nii.gz", gzipped(nii_bytes(image)));
   const auto count = [&](Index bytes) {
-    const Left limit(bytes);
+    const test::MemoryLeft limit(bytes);
     return read_binary(folder_ / "v.nii.gz", {}, {0, nullptr, &limit}).count();
   };
   EXPECT_EQ(count(Index{400} << 20), 48000000);

@@ -5,6 +5,7 @@
 #include "tests/io/temporary_folder.h"
 #include "tests/io/volume_bytes.h"
 #include "tests/support/long_tests.h"
+#include "tests/support/memory_left.h"
 #include "tests/support/vdb_files.h"
 
 #include <gtest/gtest.h>
@@ -329,23 +330,12 @@ TEST_F(Vdb, BoxesBeyondMemoryAreRefusedAtOnce) {
                            {path_, "from [0, 0, 0] to [65535, 65535, 65535]"});
 }
 
-/// A limit that always has so much left.
-class Left final : public MemoryLimit {
- public:
-  explicit Left(Index bytes) : bytes_(bytes) {}
-  void need(std::string_view, Index) const override {}
-  Index left() const override { return bytes_; }
-
- private:
-  Index bytes_;
-};
-
 TEST_F(Vdb, TheMemoryThatIsLeftBoundsTheReader) {
   const VdbGrid grid{.fills = {{{0, 0, 0}, {399, 319, 239}, 1}},
                      .dense = true};  // 123 MB of leaves
   test::write_vdb(path_, {grid});
   const auto count = [&](Index bytes) {
-    const Left limit(bytes);
+    const test::MemoryLeft limit(bytes);
     return read_binary(*open_volume(path_, {0, nullptr, &limit})).count();
   };
   EXPECT_EQ(count(Index{400} << 20), Index{400} * 320 * 240);
@@ -408,7 +398,7 @@ TEST_F(Vdb, DamageIsAnErrorOrOtherValuesAndNothingElse) {
   const std::string bytes = sample_bytes(path_, VdbForm::blosc);
   std::mt19937 random(7);
   const int count = testing::usually_or_long(60, 3000);
-  const Left limit(Index{256} << 20);
+  const test::MemoryLeft limit(Index{256} << 20);
   for (int i = 0; i < count; ++i) {
     std::string damaged = bytes;
     for (int k = 0; k < 1 + i % 4; ++k) {
