@@ -12,7 +12,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kFieldGrain = 4096;
 
 /// The surfels of a mesh, face by face, checked.
 class Surfels {
@@ -49,7 +49,7 @@ Eigen::Matrix3Xd face_gradients(const FlatMesh& mesh, const Eigen::VectorXd& phi
   Eigen::Matrix3Xd gradients(3, mesh.faces());
   context.begin("gradient", mesh.faces());
   const Surfels surfels(mesh, options);
-  parallel_for(context, mesh.faces(), kGrain, [&](Index first, Index last) {
+  parallel_for(context, mesh.faces(), kFieldGrain, [&](Index first, Index last) {
     PolygonKernel kernel(mesh, options);
     for (Index f = first; f < last; ++f) {
       const auto ids = mesh.face(f);

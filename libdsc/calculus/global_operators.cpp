@@ -12,7 +12,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 1024;
+constexpr Index kFaceGrain = 1024;
 
 /// What one dimension of a face's dense block is indexed by.
 enum class Axis { corner, component, vertex };
@@ -63,7 +63,7 @@ Eigen::SparseMatrix<double, Order> by_face(const FlatMesh& mesh, const CalculusO
 
   // Where each face's entries begin; distinct inner indices times outer ones.
   std::vector<Index> begin(static_cast<std::size_t>(F) + 1, 0);
-  parallel_for(context, F, kGrain, [&](Index first, Index last) {
+  parallel_for(context, F, kFaceGrain, [&](Index first, Index last) {
     std::vector<std::int32_t> in, out;
     for (Index f = first; f < last; ++f) {
       indices(mesh, f, inner, in);
@@ -81,7 +81,7 @@ Eigen::SparseMatrix<double, Order> by_face(const FlatMesh& mesh, const CalculusO
                 Order == Eigen::ColMajor ? outer_size : inner_size);
   matrix.resizeNonZeros(begin.back());
   matrix.outerIndexPtr()[outer_size] = static_cast<std::int32_t>(begin.back());
-  parallel_for(context, F, kGrain, [&](Index first, Index last) {
+  parallel_for(context, F, kFaceGrain, [&](Index first, Index last) {
     PolygonKernel kernel(mesh, options);
     std::vector<std::int32_t> in, out, sorted;
     std::vector<double> block;

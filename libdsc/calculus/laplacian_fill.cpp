@@ -17,7 +17,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kFillGrain = 4096;
 
 /// Asks for memory that will be written soon.
 void prefetch([[maybe_unused]] const double* address) {
@@ -101,10 +101,10 @@ Index LaplacianPattern::fill_surfels(const FlatMesh& mesh, const CalculusOptions
     const auto local =
         std::make_unique_for_overwrite<SurfelLaplacian[]>(static_cast<std::size_t>(faces_));
     const Index clamped = parallel_reduce(
-        context, faces_, kGrain, Index{0},
+        context, faces_, kFillGrain, Index{0},
         [&](Index first, Index last) { return faces(first, last, first, local.get() + first); },
         add);
-    parallel_for(context, vertices(), kGrain,
+    parallel_for(context, vertices(), kFillGrain,
                  [&](Index first, Index last) { all_columns(first, last, local.get(), 0); });
     return clamped;
   }
@@ -128,7 +128,7 @@ Index LaplacianPattern::fill_polygons(const FlatMesh& mesh, const CalculusOption
   std::vector<double> corner_area(static_cast<std::size_t>(faces_));
 
   const Index clamped = parallel_reduce(
-      context, faces_, kGrain / 4, Index{0},
+      context, faces_, kFillGrain / 4, Index{0},
       [&](Index first, Index last) {
         Index count = 0;
         PolygonKernel kernel(mesh, options);
@@ -143,7 +143,7 @@ Index LaplacianPattern::fill_polygons(const FlatMesh& mesh, const CalculusOption
       },
       add);
 
-  parallel_for(context, vertices(), kGrain, [&](Index first, Index last) {
+  parallel_for(context, vertices(), kFillGrain, [&](Index first, Index last) {
     for (Index v = first; v < last; ++v) {
       const auto at = static_cast<std::size_t>(v);
       double* column = values + outer_[at];

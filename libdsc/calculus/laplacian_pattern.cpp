@@ -13,7 +13,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kPatternGrain = 4096;
 /// What a slot of a byte can hold.
 constexpr std::size_t kMostSurfelEntries = 255;
 
@@ -130,11 +130,11 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context
   if (!digital_) {
     polygon_slots_.resize(static_cast<std::size_t>(pairs_before(faces_)));
   }
-  std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kGrain - 1) / kGrain));
+  std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kPatternGrain - 1) / kPatternGrain));
   outer_.assign(static_cast<std::size_t>(V) + 1, 0);
 
-  parallel_for(context, V, kGrain, [&](Index first, Index last) {
-    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kGrain)];
+  parallel_for(context, V, kPatternGrain, [&](Index first, Index last) {
+    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kPatternGrain)];
     part.reserve(static_cast<std::size_t>(10 * (last - first)));
     Column column;
     SmallRanks ranks;
@@ -182,8 +182,8 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context
     outer_[static_cast<std::size_t>(v) + 1] += outer_[static_cast<std::size_t>(v)];
   }
   inner_.resize(static_cast<std::size_t>(nonzeros));
-  parallel_for(context, V, kGrain, [&](Index first, Index) {
-    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kGrain)];
+  parallel_for(context, V, kPatternGrain, [&](Index first, Index) {
+    std::vector<VertexId>& part = parts[static_cast<std::size_t>(first / kPatternGrain)];
     std::copy(part.begin(), part.end(), inner_.begin() + outer_[static_cast<std::size_t>(first)]);
     std::vector<VertexId>().swap(part);
   });
@@ -229,7 +229,7 @@ LaplaceSystem LaplacianPattern::assemble(const FlatMesh& mesh, const CalculusOpt
   system.L.resizeNonZeros(nonzeros());
   std::copy(outer_.begin(), outer_.end(), system.L.outerIndexPtr());
   std::int32_t* inner = system.L.innerIndexPtr();
-  parallel_for(context, nonzeros(), 16 * kGrain, [&](Index first, Index last) {
+  parallel_for(context, nonzeros(), 16 * kPatternGrain, [&](Index first, Index last) {
     std::copy(inner_.begin() + first, inner_.begin() + last, inner + first);
   });
   system.mass.resize(vertices());

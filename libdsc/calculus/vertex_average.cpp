@@ -10,7 +10,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 4096;
+constexpr Index kAverageGrain = 4096;
 
 /// Sums over the faces around each vertex of weight · value(face, u), k × V, and of the weights.
 template <class Value>
@@ -73,7 +73,7 @@ VertexNormals vertex_normals(const FlatMesh& mesh, const CalculusOptions& option
   VertexNormals result;
   result.u = sums;
   result.undefined = parallel_reduce(
-      context, mesh.vertices(), kGrain, Index{0},
+      context, mesh.vertices(), kAverageGrain, Index{0},
       [&](Index first, Index last) {
         Index undefined = 0;
         for (Index v = first; v < last; ++v) {

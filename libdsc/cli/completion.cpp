@@ -8,17 +8,17 @@
 namespace dsc::cli {
 namespace {
 
-using Words = std::vector<std::string>;
+using Strings = std::vector<std::string>;
 
-Words names(const CLI::Option& option) {
-  Words all;
+Strings names(const CLI::Option& option) {
+  Strings all;
   for (const std::string& name : option.get_snames()) all.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) all.push_back("--" + name);
   return all;
 }
 
 /// The words of a type name like a|b|c; empty for another.
-Words choices(const CLI::Option& option) {
+Strings choices(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type.find('|') == std::string::npos) return {};
   return CLI::detail::split(type, '|');
@@ -29,13 +29,13 @@ bool takes_file(const CLI::Option& option) {
   return option.get_type_name() == "FILE" || option.get_positional();
 }
 
-std::string joined(const Words& words, const char* between = " ") {
+std::string joined(const Strings& words, const char* between = " ") {
   return CLI::detail::join(words, between);
 }
 
 /// The shapes that INPUT has after shape:, by name.
-Words shapes() {
-  Words all;
+Strings shapes() {
+  Strings all;
   for (const std::string& line : known_shapes()) {
     all.push_back(line.substr(0, line.find_first_of(" ,:=")));
   }
@@ -59,7 +59,7 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_action(const CLI::Option& option) {
-  const Words words = choices(option);
+  const Strings words = choices(option);
   if (!words.empty()) return "(" + joined(words) + ")";
   return takes_file(option) ? "_files" : " ";
 }
@@ -77,9 +77,9 @@ std::string bash_completion(const CLI::App& app) {
       "  if [[ ${COMP_LINE:0:COMP_POINT} =~ shape:([a-z]*)$ ]]; then\n    COMPREPLY=($(compgen -W "
       "'" +
       joined(shapes()) + "' -- \"${BASH_REMATCH[1]}\"))\n    return\n  fi\n";
-  Words commands;
+  Strings commands;
   for (const CLI::App* sub : app.get_subcommands({})) commands.push_back(sub->get_name());
-  Words top;
+  Strings top;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : names(*option)) top.push_back(name);
   }
@@ -89,10 +89,10 @@ std::string bash_completion(const CLI::App& app) {
   for (const CLI::App* sub : app.get_subcommands({})) {
     for (const CLI::Option* option : sub->get_options()) {
       if (!takes_value(*option)) continue;
-      Words keys;
+      Strings keys;
       for (const std::string& name : names(*option)) keys.push_back(sub->get_name() + ":" + name);
       if (keys.empty()) continue;
-      const Words words = choices(*option);
+      const Strings words = choices(*option);
       std::string action = ":";  // a number or a text: nothing to offer
       if (!words.empty()) {
         action = "COMPREPLY=($(compgen -W '" + joined(words) + "' -- \"$word\"))";
@@ -104,7 +104,7 @@ std::string bash_completion(const CLI::App& app) {
   }
   text += "  esac\n  case $command in\n";
   for (const CLI::App* sub : app.get_subcommands({})) {
-    Words all;
+    Strings all;
     for (const CLI::Option* option : sub->get_options()) {
       for (const std::string& name : names(*option)) all.push_back(name);
     }

@@ -13,7 +13,7 @@
 namespace dsc::cli {
 namespace {
 
-constexpr Index kGrain = 1 << 12;
+constexpr Index kAnswerGrain = 1 << 12;
 
 /// The distance between the radial projections of p and q.
 double great_circle(const Sphere& sphere, const Vec3& p, const Vec3& q) {
@@ -32,7 +32,7 @@ template <class Distance>
 Eigen::VectorXd distances(Vec3View points, const Eigen::Matrix3Xd& sources,
                           const Distance& distance, const Context& context) {
   Eigen::VectorXd result(points.size);
-  parallel_for(context, points.size, kGrain, [&](Index first, Index last) {
+  parallel_for(context, points.size, kAnswerGrain, [&](Index first, Index last) {
     for (Index i = first; i < last; ++i) {
       double least = std::numeric_limits<double>::infinity();
       for (Index s = 0; s < sources.cols(); ++s) {
@@ -65,7 +65,7 @@ KnownVectors at_closest_points(const ImplicitShape& shape, Vec3View points, cons
   KnownVectors result;
   result.vectors = Eigen::Matrix3Xd::Zero(3, points.size);
   result.known.assign(static_cast<std::size_t>(points.size), 0);
-  parallel_for(context, points.size, kGrain, [&](Index first, Index last) {
+  parallel_for(context, points.size, kAnswerGrain, [&](Index first, Index last) {
     auto value = make_value();
     for (Index i = first; i < last; ++i) {
       const ClosestPoint closest = closest_point(shape, points[i]);

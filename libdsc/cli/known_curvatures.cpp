@@ -6,13 +6,13 @@
 namespace dsc::cli {
 namespace {
 
-constexpr Index kGrain = 1 << 10;
+constexpr Index kCurvatureGrain = 1 << 10;
 
 /// value(i) for every i, in parallel.
 template <class Value>
 std::vector<Value> collect(Index n, const Context& context, auto&& value) {
   std::vector<Value> all(static_cast<std::size_t>(n));
-  parallel_for(context, n, kGrain, [&](Index first, Index last) {
+  parallel_for(context, n, kCurvatureGrain, [&](Index first, Index last) {
     for (Index i = first; i < last; ++i) all[static_cast<std::size_t>(i)] = value(i);
   });
   return all;

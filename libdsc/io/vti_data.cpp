@@ -18,7 +18,7 @@ constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr Index kMostDeflated = 1032;  // of zlib: bytes that one byte can become
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+bool is_xml_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
 /// Writes the number that `text` is as a T. \return whether it is one.
 template <class T>
@@ -71,7 +71,7 @@ void VtiData::next(void* to, Index bytes) {
 void VtiData::finish() {
   if (header_.encoding != VtiEncoding::ascii) return;  // sizes have told how much there is
   char c = next_char();
-  while (is_blank(c)) c = next_char();
+  while (is_xml_space(c)) c = next_char();
   if (c != '<') file_.fail(file_.position(), "the array has more numbers than the image's extent");
 }
 
@@ -152,7 +152,7 @@ bool VtiData::next_group() {
   int padding = 0;
   for (int i = 0; i < 4; ++i) {
     char c = next_char();
-    while (is_blank(c)) c = next_char();
+    while (is_xml_space(c)) c = next_char();
     if (c == '=' && i >= 2) {
       ++padding;
       value <<= 6;
@@ -183,8 +183,8 @@ char VtiData::next_char() {
 void VtiData::number(unsigned char* to) {
   std::string text;
   char c = next_char();
-  while (is_blank(c)) c = next_char();
-  for (; !is_blank(c) && c != '<' && c != '\0' && text.size() < 64; c = next_char()) text += c;
+  while (is_xml_space(c)) c = next_char();
+  for (; !is_xml_space(c) && c != '<' && c != '\0' && text.size() < 64; c = next_char()) text += c;
   if (c == '<' && text_at_ > 0) --text_at_;  // what comes next asks again and finds nothing
   if (!parse(text, header_.type, to)) {
     file_.fail(file_.position() - static_cast<Index>(text_.size() - text_at_),

@@ -42,7 +42,7 @@ Block doubles(const std::string& name, const std::vector<std::string>& parts,
 template <class ValueAt>
 Block integers(const std::string& name, bool narrow, Index n, ValueAt&& value_at) {
   Block block;
-  block.markup = std::string("type=\"") + (narrow ? "Int32" : "Int64") + "\" Name=\"" + name + "\"";
+  block.markup = fmt::format("type=\"{}\" Name=\"{}\"", narrow ? "Int32" : "Int64", name);
   block.elements = n;
   block.element_bytes = narrow ? 4 : 8;
   block.encode = [narrow, value_at](Index first, Index last, std::string& out) {

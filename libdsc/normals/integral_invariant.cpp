@@ -8,7 +8,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 256;  // balls a chunk: well below a second even for large ones
+constexpr Index kBallGrain = 256;  // balls a chunk: well below a second even for large ones
 
 }  // namespace
 
@@ -58,7 +58,7 @@ Index visit_balls(const BinaryVolume& volume, std::span<const Surfel> surfels,
     context.advance(last - first);
     return cut_surfels;
   };
-  return parallel_reduce(context, static_cast<Index>(surfels.size()), kGrain, Index{0}, some,
+  return parallel_reduce(context, static_cast<Index>(surfels.size()), kBallGrain, Index{0}, some,
                          [](Index a, Index b) { return a + b; });
 }
 

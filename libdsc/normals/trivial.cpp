@@ -12,7 +12,7 @@
 namespace dsc {
 namespace {
 
-constexpr Index kGrain = 1 << 13;
+constexpr Index kSumGrain = 1 << 13;
 constexpr double kVanishing = 1e-10;  // of a unit vector: what is left is rounding
 
 /// The faces at each vertex id, ascending: those of v are faces[offsets[v]] … faces[offsets[v +
@@ -59,7 +59,7 @@ NormalField trivial_normals(const FlatMesh& mesh, const Context& context) {
   field.u.resize(3, n);
   const Incidence at = faces_at_vertices(mesh);
   field.fallbacks = parallel_reduce(
-      context, n, kGrain, Index{0},
+      context, n, kSumGrain, Index{0},
       [&](Index first, Index last) {
         Index fallbacks = 0;
         std::vector<std::int32_t> around;

@@ -12,15 +12,15 @@ namespace {
 /// The faces that a halfedge mesh would refuse: with two corners at one umbrella, or with a side
 /// that another face has in the same direction already.
 std::vector<Index> unfit_faces(const FlatMesh& mesh, const std::vector<VertexId>& umbrellas) {
-  struct Side {
+  struct DirectedSide {
     VertexId from, to;
     Index face;
-    bool operator<(const Side& other) const {
+    bool operator<(const DirectedSide& other) const {
       return std::tie(from, to, face) < std::tie(other.from, other.to, other.face);
     }
   };
   std::vector<Index> unfit;
-  std::vector<Side> sides;
+  std::vector<DirectedSide> sides;
   sides.reserve(umbrellas.size());
   std::vector<VertexId> own;
   for (Index f = 0; f < mesh.faces(); ++f) {

@@ -13,6 +13,7 @@
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shapes.h"
 #include "tests/algorithms/meshes.h"
+#include "tests/algorithms/spheres.h"
 #include "tests/solve/grid_systems.h"
 #include "tests/support/random_volume.h"
 
@@ -72,13 +73,6 @@ DigitalSurface two_cubes() {
   }
   DigitalSurface surface = extract_surface(volume);
   tilt_normals(surface);
-  return surface;
-}
-
-DigitalSurface sphere(double h) {
-  const BinaryVolume volume = digitize(Sphere(1.), {h, h, h});
-  DigitalSurface surface = extract_surface(volume);
-  integral_invariant_normals(surface, volume, {.radius = shape_radius(h)});
   return surface;
 }
 
@@ -174,7 +168,7 @@ TEST(Checkerboard, PoissonRecoversLinearFunctionsOnPinchedSurfaces) {
 }
 
 TEST(Checkerboard, PoissonRecoversWhatIsOrthogonalToTheKernel) {
-  const DigitalSurface surface = sphere(0.2);
+  const DigitalSurface surface = testing::sphere(0.2);
   const PoissonProblem problem(surface.flat(), {}, with_mercat<PoissonOptions>());
   Eigen::VectorXd truth = scrambled(surface.vertex_count(), 3);
   const Eigen::VectorXd& mass = problem.mass();
@@ -193,7 +187,7 @@ TEST(Checkerboard, PoissonRecoversWhatIsOrthogonalToTheKernel) {
 
 TEST(Checkerboard, IsSolvedForDirectlyWhateverTheMethod) {
   // Multigrid's coarse functions do not span the kernel.
-  const DigitalSurface surface = sphere(0.1);
+  const DigitalSurface surface = testing::sphere(0.1);
   auto options = with_mercat<PoissonOptions>();
   options.solver.method = SolverMethod::multigrid;
   const Eigen::VectorXd x = surface.positions().matrix().row(0).transpose();
@@ -202,7 +196,7 @@ TEST(Checkerboard, IsSolvedForDirectlyWhateverTheMethod) {
 }
 
 TEST(Checkerboard, ARightHandSideWithOneIsRefused) {
-  const DigitalSurface surface = sphere(0.2);
+  const DigitalSurface surface = testing::sphere(0.2);
   Eigen::VectorXd b = checkerboard(surface);
   b.array() -= b.mean();
   solve_poisson(surface.flat(), b);  // sums to zero: fine with a stabilisation
@@ -250,7 +244,7 @@ double distance_error(const DigitalSurface& surface, const GeodesicOptions& opti
 TEST(Checkerboard, DistancesConvergeWithoutIt) {
   double last = 1;
   for (const double h : {0.2, 0.1, 0.05}) {
-    const DigitalSurface surface = sphere(h);
+    const DigitalSurface surface = testing::sphere(h);
     auto options = with_mercat<GeodesicOptions>();
     const double error = distance_error(surface, options);
     EXPECT_LT(error, 0.8 * last) << h;
@@ -260,7 +254,7 @@ TEST(Checkerboard, DistancesConvergeWithoutIt) {
       EXPECT_NEAR(distance_error(surface, options), error, 0.01 * h);
     }
   }
-  EXPECT_LT(last, distance_error(sphere(0.05), {}));
+  EXPECT_LT(last, distance_error(testing::sphere(0.05), {}));
 }
 
 TEST(Checkerboard, DistancesCrossASharedPointel) {
@@ -275,7 +269,7 @@ TEST(Checkerboard, DistancesCrossASharedPointel) {
 }
 
 TEST(Checkerboard, TheSpectrumOfTheSphereIsThatOfTheHarmonics) {
-  const DigitalSurface surface = sphere(0.05);
+  const DigitalSurface surface = testing::sphere(0.05);
   const LaplaceSystem system = assemble_laplacian(surface.flat(), mercat());
   const Spectrum s = lowest_smooth_spectrum(-system.L, system.mass,
                                             checkerboard_form(surface.flat()), {.count = 9});

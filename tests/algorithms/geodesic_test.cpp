@@ -22,9 +22,8 @@ namespace {
 using testing::cube_sphere;
 using testing::grid;
 using testing::join;
+using testing::kInfinity;
 using testing::Mesh;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Errors {
   double mean = 0;

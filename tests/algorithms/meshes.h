@@ -6,9 +6,12 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace dsc::testing {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Mesh {
   Eigen::Matrix3Xd positions;

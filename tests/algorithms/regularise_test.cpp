@@ -8,6 +8,7 @@
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shapes.h"
+#include "tests/algorithms/spheres.h"
 #include "tests/support/random_volume.h"
 
 #include <gtest/gtest.h>
@@ -72,13 +73,6 @@ void expect_minimum(const FlatMesh& mesh, const Eigen::Matrix3Xd& q,
   }
 }
 
-DigitalSurface sphere(double h, const Vec3& centre = Vec3::Zero()) {
-  const BinaryVolume volume = digitize(Sphere(1., centre), Vec3(h, h, h));
-  DigitalSurface surface = extract_surface(volume);
-  integral_invariant_normals(surface, volume, {.radius = shape_radius(h)});
-  return surface;
-}
-
 RegulariseOptions precise() {
   RegulariseOptions options;
   options.accuracy = 1e-7;
@@ -86,7 +80,7 @@ RegulariseOptions precise() {
 }
 
 TEST(Regularise, FindsTheMinimumOfTheEnergy) {
-  const DigitalSurface surface = sphere(0.2);
+  const DigitalSurface surface = testing::sphere(0.2);
   RegulariseOptions options = precise();
   expect_minimum(surface.flat(), regularise_positions(surface.flat(), options).positions, options);
   options.alpha = 0.3;
@@ -109,7 +103,7 @@ TEST(Regularise, FindsItOnPinchedSurfacesWithBoundaryToo) {
 }
 
 TEST(Regularise, MovesAndScalesWithTheSurface) {
-  const DigitalSurface surface = sphere(0.2);
+  const DigitalSurface surface = testing::sphere(0.2);
   FlatMesh mesh = surface.flat();
   const Eigen::Matrix3Xd reference = regularise_positions(mesh, precise()).positions;
   for (const double scale : {1., 1e-3, 40.}) {
@@ -125,7 +119,7 @@ TEST(Regularise, MovesAndScalesWithTheSurface) {
 
 TEST(Regularise, BringsTheSphereThirtyTimesNearer) {
   for (const double h : {0.1, 0.05}) {
-    const DigitalSurface surface = sphere(h);
+    const DigitalSurface surface = testing::sphere(h);
     const RegularisedPositions result = regularise_positions(surface.flat());
     const auto deviation = [](const Eigen::Matrix3Xd& p) {
       return std::sqrt((p.colwise().norm().array() - 1).square().mean());
@@ -141,7 +135,7 @@ TEST(Regularise, BringsTheSphereThirtyTimesNearer) {
 TEST(Regularise, GivesTheSphereItsMeanCurvature) {
   double error = 1;
   for (const double h : {0.1, 0.05, 0.025}) {
-    const DigitalSurface surface = sphere(h);
+    const DigitalSurface surface = testing::sphere(h);
     const Eigen::Matrix3Xd smooth = regularise_positions(surface.flat()).positions;
     FlatMesh mesh = surface.flat(false);
     mesh.positions = {smooth.data(), smooth.cols()};
@@ -199,7 +193,7 @@ TEST(Regularise, KeepsAJunctionInOnePiece) {
 }
 
 TEST(Regularise, AVertexOfNoFaceStays) {
-  DigitalSurface surface = sphere(0.3);
+  DigitalSurface surface = testing::sphere(0.3);
   Eigen::Matrix3Xd positions(3, surface.vertex_count() + 1);
   positions << surface.positions().matrix(), Vec3(7, 8, 9);
   FlatMesh mesh = surface.flat();
@@ -209,7 +203,7 @@ TEST(Regularise, AVertexOfNoFaceStays) {
 }
 
 TEST(Regularise, RefusesWhatHasNoMinimum) {
-  const DigitalSurface surface = sphere(0.3);
+  const DigitalSurface surface = testing::sphere(0.3);
   EXPECT_THROW(regularise_positions(surface.flat(false)), UsageError);
   for (double RegulariseOptions::*member :
        {&RegulariseOptions::alpha, &RegulariseOptions::beta, &RegulariseOptions::gamma,
@@ -223,7 +217,7 @@ TEST(Regularise, RefusesWhatHasNoMinimum) {
 }
 
 TEST(Regularise, HasTheSameBitsForAnyThreadCount) {
-  const DigitalSurface surface = sphere(0.04);
+  const DigitalSurface surface = testing::sphere(0.04);
   Context context;
   context.threads = 1;
   const RegularisedPositions one = regularise_positions(surface.flat(), {}, context);

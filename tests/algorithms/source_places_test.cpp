@@ -23,7 +23,7 @@
 namespace dsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 /// Lengths of the shortest paths over faces; longer than the true distance by 8 % at most where the
 /// surface is flat. Infinite where no path leads.

@@ -14,15 +14,8 @@ namespace {
 
 using testing::OwnedMesh;
 
-std::vector<OwnedMesh> family() {
-  std::vector<OwnedMesh> meshes = testing::digital_family();
-  meshes.push_back(meshes[2].as_polygons());
-  meshes.push_back(testing::polygon_soup(1));
-  return meshes;
-}
-
 TEST(FieldOperators, GradientsAndDivergenceAreThoseOfTheFaces) {
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const Eigen::VectorXd phi = Eigen::VectorXd::Random(mesh.vertices());
     const Eigen::Matrix3Xd d = Eigen::Matrix3Xd::Random(3, mesh.faces());
@@ -43,7 +36,7 @@ TEST(FieldOperators, GradientsAndDivergenceAreThoseOfTheFaces) {
 }
 
 TEST(FieldOperators, GreensFormulaHolds) {
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const Eigen::VectorXd phi = Eigen::VectorXd::Random(mesh.vertices());
     const Eigen::Matrix3Xd d = Eigen::Matrix3Xd::Random(3, mesh.faces());
@@ -63,7 +56,7 @@ TEST(FieldOperators, GreensFormulaHolds) {
 TEST(FieldOperators, DivergenceOfGradientIsTheLaplacianWithoutItsSecondPart) {
   CalculusOptions options;
   options.stabilization = Stabilization::mercat;
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const Eigen::VectorXd phi = Eigen::VectorXd::Random(mesh.vertices());
     const Eigen::VectorXd expected = assemble_laplacian(mesh, options).L * phi;

@@ -16,13 +16,6 @@ namespace {
 
 using testing::OwnedMesh;
 
-/// Closed, bounded and pinched surfaces; non-planar polygons that meet themselves.
-std::vector<OwnedMesh> family() {
-  std::vector<OwnedMesh> meshes = testing::digital_family();
-  meshes.push_back(testing::polygon_soup(1));
-  return meshes;
-}
-
 void expect_equal(const SparseMatrix& a, const SparseMatrix& b, const std::string& what) {
   ASSERT_EQ(a.rows(), b.rows()) << what;
   ASSERT_EQ(a.cols(), b.cols()) << what;
@@ -39,7 +32,7 @@ void expect_canonical(const SparseMatrix& m) {
 }
 
 TEST(GlobalOperators, BlocksAreTheFacesOperators) {
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const SparseMatrix M1 = mass1_matrix(mesh), flat = flat_matrix(mesh),
                        sharp = sharp_matrix(mesh);
@@ -61,7 +54,7 @@ TEST(GlobalOperators, BlocksAreTheFacesOperators) {
 }
 
 TEST(GlobalOperators, MatricesComposeAsTheFacesOperatorsDo) {
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const SparseMatrix D = difference_matrix(mesh), M1 = mass1_matrix(mesh),
                        Div = divergence_matrix(mesh), G = gradient_matrix(mesh),
@@ -76,7 +69,7 @@ TEST(GlobalOperators, MatricesComposeAsTheFacesOperatorsDo) {
 }
 
 TEST(GlobalOperators, ProductsAreTheFieldOperators) {
-  for (const OwnedMesh& owned : family()) {
+  for (const OwnedMesh& owned : testing::mixed_family()) {
     const FlatMesh mesh = owned.view();
     const Eigen::VectorXd phi = Eigen::VectorXd::Random(mesh.vertices());
     const Eigen::Matrix3Xd d = Eigen::Matrix3Xd::Random(3, mesh.faces());

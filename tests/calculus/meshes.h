@@ -148,4 +148,12 @@ inline OwnedMesh polygon_soup(unsigned seed) {
   return mesh;
 }
 
+/// digital_family(), its pinched member as polygons too, and polygons that are not planar and meet themselves.
+inline std::vector<OwnedMesh> mixed_family() {
+  std::vector<OwnedMesh> meshes = digital_family();
+  meshes.push_back(meshes[2].as_polygons());
+  meshes.push_back(polygon_soup(1));
+  return meshes;
+}
+
 }  // namespace dsc::testing

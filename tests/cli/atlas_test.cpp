@@ -78,7 +78,7 @@ Counts count(const Voxels& v) {
   return counts;
 }
 
-class Atlas : public testing::TestWithParam<const char*> {
+class Atlas : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
 #ifndef DSC_IMAGE_READER
@@ -165,7 +165,7 @@ TEST_P(Atlas, TheWholeBrainHasItsNormalsTurnedOutwards) {
   EXPECT_NEAR(flux / 3, report["input"]["voxels_inside"].get<double>(), 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheBrain, Atlas, testing::Values(kAal, kHarvardOxford),
+INSTANTIATE_TEST_SUITE_P(OfTheBrain, Atlas, ::testing::Values(kAal, kHarvardOxford),
                          [](const auto& atlas) {
                            return std::string(atlas.param == kAal ? "Aal" : "HarvardOxford");
                          });

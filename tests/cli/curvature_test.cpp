@@ -11,13 +11,6 @@
 namespace dsc::test {
 namespace {
 
-nlohmann::json report_of(const Words& arguments) {
-  const Folder folder;
-  const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
-}
-
 double further(const nlohmann::json& report, const std::string& quantity, const char* norm) {
   for (const auto& error : report["further_errors"]) {
     if (error["quantity"] == quantity) return error[norm];
@@ -26,7 +19,7 @@ double further(const nlohmann::json& report, const std::string& quantity, const 
   return 0;
 }
 
-const Words kSphere = {"shape:sphere", "--gridstep", "0.05"};
+const Words kFineSphere = {"shape:sphere", "--gridstep", "0.05"};
 
 /// A ball of radius 12 voxels as a file.
 std::string ball_file(const Folder& folder, std::uint8_t label_below = 1) {
@@ -46,13 +39,13 @@ std::string ball_file(const Folder& folder, std::uint8_t label_below = 1) {
 }
 
 TEST(Curvature, OfTheSphereIsOneWithTheErrorOfTheFormula) {
-  const auto report = report_of(Words{"curvature"} + kSphere);
+  const auto report = report_of(Words{"curvature"} + kFineSphere);
   const double r = 3 * std::sqrt(0.05);
   EXPECT_NEAR(report["error"]["mean"], r * r / 4, 0.12 * r * r / 4);
   for (const char* name : {"kappa_1", "kappa_2"}) EXPECT_LT(further(report, name, "mean"), 0.15);
   EXPECT_LT(further(report, "gaussian_curvature", "mean"), 0.3);
   EXPECT_EQ(report["further_errors"].size(), 3U) << "a sphere has no principal directions";
-  const auto plain = report_of(Words{"curvature", "--form", "plain"} + kSphere);
+  const auto plain = report_of(Words{"curvature", "--form", "plain"} + kFineSphere);
   EXPECT_NEAR(plain["result"]["mean"], 1, 0.02);
 }
 
@@ -86,7 +79,7 @@ TEST(Curvature, OfTheTorusHasItsDirections) {
 TEST(Curvature, AveragesToVertices) {
   const Folder folder;
   const auto report =
-      report_of(Words{"curvature", "--on", "vertex", "-o", folder / "c.ply"} + kSphere);
+      report_of(Words{"curvature", "--on", "vertex", "-o", folder / "c.ply"} + kFineSphere);
   EXPECT_LT(report["error"]["mean"], 0.15);
   const PlyFile ply = read_ply(folder / "c.ply");
   EXPECT_EQ(ply.vertex_columns({"kappa_1"}).size(), ply.vertices.size());
@@ -104,7 +97,7 @@ TEST(Curvature, FromTheLaplacianConvergesWithoutStabilisation) {
   }
   EXPECT_LT(last, 0.015);
   const auto biased =
-      report_of(Words{"curvature", "--estimator", "laplacian", "--lambda", "0.25"} + kSphere);
+      report_of(Words{"curvature", "--estimator", "laplacian", "--lambda", "0.25"} + kFineSphere);
   EXPECT_NEAR(biased["result"]["mean"], 1.035, 0.015);
 }
 
@@ -148,10 +141,10 @@ TEST(Laplacian, ConvergesWhereItIsDiffused) {
     last = report["error"]["mean"];
   }
   EXPECT_LT(last, 0.063);
-  const auto pointwise = report_of(Words{"laplacian", "--function", "x^2"} + kSphere);
+  const auto pointwise = report_of(Words{"laplacian", "--function", "x^2"} + kFineSphere);
   EXPECT_LT(pointwise["error"]["mean"], 0.29);
   const auto naive =
-      report_of(Words{"laplacian", "--function", "x^2", "--calculus", "naive"} + kSphere);
+      report_of(Words{"laplacian", "--function", "x^2", "--calculus", "naive"} + kFineSphere);
   EXPECT_GT(naive["error"]["mean"], 3.);
   const auto torus = report_of({"laplacian", "shape:torus", "--gridstep", "0.025", "--function",
                                 "x*z", "--diffuse", "0.001"});
@@ -175,7 +168,7 @@ TEST(Laplacian, OfVoxelsIsTakenAtRegularisedPositions) {
 TEST(Poisson, OnTheSphereFindsTheEigenfunctionAndRemovesTheMean) {
   const Folder folder;
   const auto report =
-      report_of(Words{"poisson", "--rhs", "-2*x+5", "-o", folder / "u.csv"} + kSphere);
+      report_of(Words{"poisson", "--rhs", "-2*x+5", "-o", folder / "u.csv"} + kFineSphere);
   EXPECT_NEAR(report["poisson"]["removed_mean"], 5, 0.01);
   EXPECT_EQ(report["poisson"]["free_components"], 1);
   EXPECT_EQ(report["poisson"]["fixed_vertices"], 0);
@@ -226,17 +219,17 @@ TEST(Poisson, FixesOneComponentAndFreesTheOther) {
 }
 
 TEST(Poisson, HasNothingToFixOnAClosedSurface) {
-  const Outcome outcome = run_dsc(Words{"poisson", "--rhs", "x", "--fix", "1"} + kSphere);
+  const Outcome outcome = run_dsc(Words{"poisson", "--rhs", "x", "--fix", "1"} + kFineSphere);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("--fix"), std::string::npos);
-  EXPECT_EQ(run_dsc(Words{"poisson", "--rhs", "x+"} + kSphere).exit_code, 2);
+  EXPECT_EQ(run_dsc(Words{"poisson", "--rhs", "x+"} + kFineSphere).exit_code, 2);
 }
 
 TEST(Surface, RegularisedKeepsItsFacesAndNearsTheSphere) {
   const Folder folder;
-  report_of(Words{"surface", "-o", folder / "raw.ply"} + kSphere);
+  report_of(Words{"surface", "-o", folder / "raw.ply"} + kFineSphere);
   const auto report =
-      report_of(Words{"surface", "--regularise", "-o", folder / "smooth.ply"} + kSphere);
+      report_of(Words{"surface", "--regularise", "-o", folder / "smooth.ply"} + kFineSphere);
   EXPECT_EQ(report["positions"]["kind"], "regularised");
   EXPECT_GT(report["positions"]["iterations"], 0);
   const PlyFile raw = read_ply(folder / "raw.ply"), smooth = read_ply(folder / "smooth.ply");
@@ -255,8 +248,8 @@ TEST(Surface, RegularisedKeepsItsFacesAndNearsTheSphere) {
 /// any other, has the sphere's curvature and functions.
 TEST(SmoothMesh, GoesThroughFiles) {
   const Folder folder;
-  report_of(Words{"normals", "-o", folder / "normals.ply"} + kSphere);
-  report_of(Words{"surface", "--regularise", "-o", folder / "direct.ply"} + kSphere);
+  report_of(Words{"normals", "-o", folder / "normals.ply"} + kFineSphere);
+  report_of(Words{"surface", "--regularise", "-o", folder / "direct.ply"} + kFineSphere);
   const auto report =
       report_of({"surface", folder / "normals.ply", "--regularise", "-o", folder / "smooth.ply"});
   EXPECT_EQ(report["positions"]["kind"], "regularised");

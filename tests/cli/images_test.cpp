@@ -11,7 +11,7 @@ namespace dsc::test {
 namespace {
 
 /// An ellipsoid on stretched voxels, as .npy with --gridstep, and as .mha in a turned frame.
-class Placed : public testing::TestWithParam<double> {
+class Placed : public ::testing::TestWithParam<double> {
  protected:
   void SetUp() override {
 #ifndef DSC_IMAGE_READER
@@ -124,7 +124,7 @@ TEST_P(Placed, LabelsOfAnImageAreWritten) {
   for (const double label : file.face_columns({"label_inner"})) EXPECT_EQ(label, 5);
 }
 
-INSTANTIATE_TEST_SUITE_P(TurnedAndMirrored, Placed, testing::Values(1., -1.));
+INSTANTIATE_TEST_SUITE_P(TurnedAndMirrored, Placed, ::testing::Values(1., -1.));
 
 TEST(Images, ATruncatedOneIsExitCodeThree) {
   const Folder folder;

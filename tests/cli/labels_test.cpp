@@ -16,7 +16,7 @@ using Pair = std::pair<double, double>;
 
 /// A box of 12 x 12 x 8 voxels with a margin of one: label 3 at x < 6, elsewhere 7 at y < 6 and
 /// 9 at the others. The three meet along the line x = 5.5, y = 5.5.
-class ThreeLabels : public testing::Test {
+class ThreeLabels : public ::testing::Test {
  protected:
   ThreeLabels() : path_(folder_ / "labels.npy") {
     const Grid grid{{14, 14, 10}, {1, 1, 1}, Vec3::Zero()};

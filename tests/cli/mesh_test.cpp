@@ -12,13 +12,6 @@
 namespace dsc::test {
 namespace {
 
-nlohmann::json report_of(const Words& arguments) {
-  const Folder folder;
-  const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
-}
-
 const char* const kCube =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";

@@ -14,7 +14,7 @@
 namespace dsc::test {
 namespace {
 
-const Words kSphere = {"geodesic", "shape:sphere", "--gridstep", "0.1", "--source", "0,0,1"};
+const Words kDistances = {"geodesic", "shape:sphere", "--gridstep", "0.1", "--source", "0,0,1"};
 
 TEST(Pictures, OptionsAboutThemNeedOne) {
   const Folder folder;
@@ -27,7 +27,7 @@ TEST(Pictures, OptionsAboutThemNeedOne) {
                                                 {"--isolines", "3"},
                                                 {"--shading", "flat"},
                                                 {"--glyphs", "3"}}) {
-    expect_refused(run_dsc(kSphere + Words{"-o", folder / "x.ply"} + option), 2,
+    expect_refused(run_dsc(kDistances + Words{"-o", folder / "x.ply"} + option), 2,
                    {option[0], "-o FILE.png"});
   }
   EXPECT_EQ(folder.names(), Words{});
@@ -37,7 +37,7 @@ TEST(Pictures, OptionsAboutThemNeedOne) {
 
 TEST(Pictures, ABuildWithoutSaysHowToGetOne) {
   const Folder folder;
-  expect_refused(run_dsc(kSphere + Words{"-o", folder / "x.png"}), 2,
+  expect_refused(run_dsc(kDistances + Words{"-o", folder / "x.png"}), 2,
                  {"DSC_WITH_PICTURES", "libembree-dev"});
   EXPECT_EQ(folder.names(), Words{});
 }
@@ -70,7 +70,7 @@ constexpr std::array<std::uint8_t, 3> kWhite{255, 255, 255};
 TEST(Pictures, DistancesFromTheNorthPoleGrowDownwards) {
   const Folder folder;
   const Outcome outcome =
-      run_dsc(kSphere + Words{"-o", folder / "x.png", "-o", folder / "x.ply", "--view", "front",
+      run_dsc(kDistances + Words{"-o", folder / "x.png", "-o", folder / "x.ply", "--view", "front",
                               "--picture-size", "320,240", "--colormap", "grey", "--isolines", "0",
                               "--report", folder / "r.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -154,7 +154,7 @@ TEST(Pictures, OptionsWithoutEffectAreRefusedBeforeAnythingIsRead) {
 
 TEST(Pictures, BadValuesAreRefusedWithWhatIsExpected) {
   const Folder folder;
-  const Words call = kSphere + Words{"-o", folder / "x.png"};
+  const Words call = kDistances + Words{"-o", folder / "x.png"};
   const auto refused = [&](const Words& option, const std::string& word) {
     expect_refused(run_dsc(call + option), 2, {word});
   };
@@ -167,7 +167,7 @@ TEST(Pictures, BadValuesAreRefusedWithWhatIsExpected) {
   refused({"--colormap", "jet"}, "lagoon");
   refused({"--isolines", "-1"}, "whole number");
   refused({"--isolines", "2.5"}, "whole number");
-  expect_refused(run_dsc(kSphere + Words{"-o", folder / "no/x.png"}), 3, {"does not exist"});
+  expect_refused(run_dsc(kDistances + Words{"-o", folder / "no/x.png"}), 3, {"does not exist"});
   expect_refused(run_dsc(call + Words{"-o", folder / "x.png"}), 2, {"twice"});
   EXPECT_EQ(folder.names(), Words{});
 }
@@ -223,7 +223,7 @@ TEST(Pictures, AnyNumberOfThreadsWritesTheSameFile) {
   for (const char* threads : {"1", "3"}) {
     const std::string path = folder / (std::string(threads) + ".png");
     ASSERT_EQ(
-        run_dsc(kSphere + Words{"-o", path, "--picture-size", "300,200", "--threads", threads})
+        run_dsc(kDistances + Words{"-o", path, "--picture-size", "300,200", "--threads", threads})
             .exit_code,
         0);
   }

@@ -113,4 +113,11 @@ void write_file(const std::string& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
 }
 
+nlohmann::json report_of(const Words& arguments) {
+  const Folder folder;
+  const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
+}
+
 }  // namespace dsc::test

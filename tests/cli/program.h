@@ -54,6 +54,9 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// The report of a run that succeeds; null where it does not, and the test fails.
+nlohmann::json report_of(const Words& arguments);
+
 /// A file of DSC_TEST_DATA, or "" where that is not set.
 std::string test_data(const std::string& name);
 

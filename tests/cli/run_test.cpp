@@ -12,14 +12,6 @@
 namespace dsc::test {
 namespace {
 
-/// Runs, expects success, and returns the report.
-nlohmann::json report_of(const Words& arguments) {
-  const Folder folder;
-  const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
-}
-
 const Words kSphere = {"shape:sphere", "--gridstep", "0.1"};
 const Words kSource = {"--source", "0.3,0.5,0.81"};
 
@@ -320,7 +312,7 @@ TEST(Info, ARawFileIsReadAsItsOptionsSay) {
 }
 
 /// spot-64.vol through every command.
-class RealVoxels : public testing::TestWithParam<const char*> {
+class RealVoxels : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     spot_ = test_data(GetParam());
@@ -378,7 +370,7 @@ TEST_P(RealVoxels, GoThroughEveryCommand) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Spot, RealVoxels,
-                         testing::Values("spot-64.vol", "spot-128.vol", "spot-256.vol",
+                         ::testing::Values("spot-64.vol", "spot-128.vol", "spot-256.vol",
                                          "spot-512.vol"));
 
 }  // namespace

@@ -10,13 +10,6 @@
 namespace dsc::test {
 namespace {
 
-nlohmann::json report_of(const Words& arguments) {
-  const Folder folder;
-  const Outcome outcome = run_dsc(arguments + Words{"--report", folder / "report.json"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? read_json(folder / "report.json") : nlohmann::json();
-}
-
 Words plane(const std::string& h, const std::string& size = "4") {
   return {"shape:plane,nx=1,ny=2,nz=3,size=" + size, "--gridstep", h};
 }

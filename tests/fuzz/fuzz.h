@@ -7,6 +7,8 @@
 /// refuses the bytes, and Broken where a promise does not hold; nothing else may happen.
 #pragma once
 
+#include "libdsc/base/context.h"
+
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +20,9 @@ class Broken : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
+
+/// One thread, watched by nobody.
+inline const Context kContext{1, nullptr};
 
 inline void require(bool holds, const char* promise) {
   if (!holds) throw Broken(promise);

@@ -17,8 +17,6 @@
 namespace dsc::fuzz {
 namespace {
 
-const Context kContext{1, nullptr};
-
 PolygonMesh read(const std::string& ending, std::string_view bytes) {
   InputFile file("fuzz" + ending, bytes);
   return detail::read_mesh(file, kContext);

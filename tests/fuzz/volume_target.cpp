@@ -18,8 +18,6 @@
 namespace dsc::fuzz {
 namespace {
 
-const Context kContext{1, nullptr};
-
 using Values =
     std::variant<std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::uint16_t>,
                  std::vector<std::int16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>,

@@ -35,15 +35,6 @@ Eigen::Matrix4d matrix_of(const Mat3& axes, const Vec3& origin) {
 }
 
 /// The values in the order of the file's voxels, x fastest, as doubles.
-std::vector<double> values_of(VolumeSource& source) {
-  std::vector<double> values;
-  source.read([&](const Slab& slab) {
-    std::visit([&](auto span) { values.insert(values.end(), span.begin(), span.end()); },
-               slab.values);
-  });
-  return values;
-}
-
 VoxelSelection between(double low, double high) {
   VoxelSelection selection;
   selection.threshold = {low, high};

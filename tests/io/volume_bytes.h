@@ -4,12 +4,14 @@
 
 #include "libdsc/base/error.h"
 #include "libdsc/base/types.h"
+#include "libdsc/io/volume_source.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace dsc {
@@ -24,6 +26,15 @@ inline std::string vol_text(Index x, Index y, Index z, int version) {
   return vol_text(
       "X: " + std::to_string(x) + "\nY: " + std::to_string(y) + "\nZ: " + std::to_string(z) + "\n",
       std::to_string(version));
+}
+
+/// All voxels in the order in which they come.
+inline std::vector<double> values_of(VolumeSource& source) {
+  std::vector<double> all;
+  source.read([&](const Slab& slab) {
+    std::visit([&](auto span) { all.insert(all.end(), span.begin(), span.end()); }, slab.values);
+  });
+  return all;
 }
 
 inline std::string deflated(const std::string& bytes) {

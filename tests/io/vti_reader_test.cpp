@@ -123,14 +123,6 @@ std::string file_of(const Style &style, const std::string &place = kPlace) {
   return text + "</VTKFile>\n";
 }
 
-std::vector<double> values_of(VolumeSource &source) {
-  std::vector<double> all;
-  source.read([&](const Slab &slab) {
-    std::visit([&](auto span) { all.insert(all.end(), span.begin(), span.end()); }, slab.values);
-  });
-  return all;
-}
-
 void write_bytes(const std::string &path, const std::string &bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }

@@ -1,7 +1,8 @@
 # cmake -DNM=<nm> -DLIBRARIES=<library>;… -DALLOWED=<object>:<symbol>;… -P check_symbols.cmake
 #
 # A library never writes to standard output or error and never ends the process. Fails, naming object
-# and symbol, on each undefined symbol that could, unless ALLOWED has it.
+# and symbol, on each undefined symbol that could, unless ALLOWED has it. Several sources in one object of
+# a unity build are named by that.
 cmake_minimum_required(VERSION 3.25)
 
 # Formatting into memory (snprintf) is no output.
@@ -25,15 +26,15 @@ foreach(library IN LISTS LIBRARIES)
   string(REPLACE "]" ")" text "${text}")
   string(REPLACE "\n" ";" lines "${text}")
   foreach(line IN LISTS lines)
-    if(NOT line MATCHES "[(/:]([A-Za-z_0-9]+)\\.cpp\\.o\\)?: ([^ ]+) [Uw]")
+    if(NOT line MATCHES "[(/:]([A-Za-z_0-9]+)(\\.cpp|\\.cxx)\\.o\\)?: ([^ ]+) [Uw]")
       continue()
     endif()
     set(object ${CMAKE_MATCH_1})
-    string(REGEX REPLACE "@.*" "" symbol "${CMAKE_MATCH_2}")
+    string(REGEX REPLACE "@.*" "" symbol "${CMAKE_MATCH_3}")
     math(EXPR count "${count} + 1")
     foreach(pattern IN LISTS forbidden)
       if(symbol MATCHES "^(${pattern})$" AND NOT "${object}:${symbol}" IN_LIST ALLOWED)
-        list(APPEND problems "${object}.cpp uses ${symbol}")
+        list(APPEND problems "${object} uses ${symbol}")
       endif()
     endforeach()
   endforeach()
