@@ -4,6 +4,8 @@
 #include "libdsc/io/base64.h"
 #include "libdsc/io/result_writers.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace dsc::detail {
