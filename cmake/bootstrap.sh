@@ -46,6 +46,7 @@ missing_packages() {
   fi
   [[ $mode != test && $mode != docs ]] || command -v doxygen >/dev/null || echo doxygen
   [[ $mode != test ]] || command -v python3 >/dev/null || echo python3
+  [[ $mode != test ]] || command -v clang-tidy >/dev/null || echo clang-tidy
   [[ $mode != test ]] || command -v node >/dev/null || echo nodejs
   local package
   for package in "$@"; do

@@ -6,6 +6,8 @@
 #
 #   asan       every test under AddressSanitizer and UndefinedBehaviorSanitizer, CHOLMOD, ITK, OpenVDB and CGAL too
 #   tsan       every test under ThreadSanitizer, parallel loops on std::thread
+#   plain      every test of a build without anything optional, each source compiled by itself
+#   tidy       clang-tidy and clang's static analyzer on every source
 #   valgrind   the small tests of the optimised build under memcheck
 #   fuzz       every reader under libFuzzer, 10^7 executions each (tests/fuzz/run.sh); needs clang
 #   long       DSC_LONG_TESTS=1: 100 000 random volumes, 1000 killed runs, 500 interrupted
@@ -24,7 +26,7 @@ while (($# > 0)) && [[ $1 != -- ]]; do
   shift
 done
 [[ ${1:-} != -- ]] || shift
-((${#parts[@]})) || parts=(asan tsan valgrind fuzz long)
+((${#parts[@]})) || parts=(plain tidy asan tsan valgrind fuzz long)
 jobs=$(getconf _NPROCESSORS_ONLN)
 ctest_options=("$@")
 
@@ -53,6 +55,17 @@ run_tsan() {
   build tsan
   TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1 test_all tsan
 }
+
+run_plain() {
+  local without=()
+  for part in CHOLMOD ITK OPENVDB CGAL PICTURES PAGE; do without+=("-DDSC_WITH_$part=OFF"); done
+  cmake --preset dev -B build/plain -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${without[@]}" \
+    --log-level=WARNING
+  cmake --build build/plain --parallel "$jobs"
+  ctest --test-dir build/plain --no-tests=error --output-on-failure --parallel "$jobs" "${ctest_options[@]}"
+}
+
+run_tidy() { tests/tidy.sh --all; }
 
 run_valgrind() {
   build dev
@@ -84,9 +97,9 @@ run_long() {
 failed=()
 for part in "${parts[@]}"; do
   case $part in
-    asan | tsan | valgrind | fuzz | long) ;;
+    plain | tidy | asan | tsan | valgrind | fuzz | long) ;;
     *)
-      sed -n '5,16p' "${BASH_SOURCE[0]}" >&2
+      sed -n '5,18p' "${BASH_SOURCE[0]}" >&2
       exit 2
       ;;
   esac
