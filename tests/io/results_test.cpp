@@ -34,7 +34,7 @@ std::vector<double> random_doubles(std::size_t n, unsigned seed) {
 /// Bits, so that -0 and 0 differ.
 std::vector<std::uint64_t> bits_of(std::span<const double> values) {
   std::vector<std::uint64_t> bits(values.size());
-  std::memcpy(bits.data(), values.data(), values.size_bytes());
+  if (!values.empty()) std::memcpy(bits.data(), values.data(), values.size_bytes());
   return bits;
 }
 

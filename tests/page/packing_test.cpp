@@ -85,7 +85,7 @@ TEST(PackedIntegers, TheDecoderOfThePageReadsThem) {
       ASSERT_EQ(std::system(command.c_str()), 0) << command;
       const std::string bytes = read_all(folder / "out");
       std::vector<std::int32_t> read(bytes.size() / 4);
-      std::memcpy(read.data(), bytes.data(), bytes.size());
+      if (!read.empty()) std::memcpy(read.data(), bytes.data(), bytes.size());
       EXPECT_EQ(read, values);
     }
   }
