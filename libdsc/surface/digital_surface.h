@@ -81,7 +81,9 @@ class DigitalSurface {
     return {p[0], p[1], p[2]};
   }
   /// World positions of all vertex ids, in their order.
-  Vec3View positions() const { return {mesh_->points()->data(), vertex_count_}; }
+  Vec3View positions() const {
+    return {vertex_count_ == 0 ? nullptr : mesh_->points()->data(), vertex_count_};
+  }
 
   /// The face property `dsc:normal` , one a face; empty where no estimator has written it.
   Vec3View normals() const;
