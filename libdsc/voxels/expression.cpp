@@ -11,10 +11,25 @@
 #include <vector>
 
 namespace dsc {
+namespace {
+
+/// muParser reads numbers in one locale for all parsers, whose tables libstdc++ makes for the first number,
+/// and readers take no lock: that one is read before two threads could.
+void make_locale_ready() {
+  static const double first = [] {
+    mu::Parser parser;
+    parser.SetExpr("0.5");
+    return parser.Eval();
+  }();
+  (void)first;
+}
+
+}  // namespace
 
 /// A compiled parser and the variables that it reads.
 struct Expression::Evaluator::Machine {
   explicit Machine(const std::string& text) {
+    make_locale_ready();
     parser.DefineVar("x", &x);
     parser.DefineVar("y", &y);
     parser.DefineVar("z", &z);
