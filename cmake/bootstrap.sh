@@ -16,11 +16,13 @@
 #                                      measures every stage and whole jobs against what the machine can
 #                                      do and rewrites tests/benchmarks/RESULTS.md, in a quarter of an
 #                                      hour; --quick prints what small surfaces take, in two minutes
+#   ./cmake/bootstrap.sh packages      builds the program and the library and makes Debian packages of
+#                                      them, build/release/*.deb
 #   ./cmake/bootstrap.sh docs          makes the pages for readers of the code, build/docs/html/index.html
 set -euo pipefail
 
 usage() {
-  sed -n '5,19s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '5,21s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -46,6 +48,8 @@ missing_packages() {
   fi
   [[ $mode != test && $mode != docs ]] || command -v doxygen >/dev/null || echo doxygen
   [[ $mode != test ]] || command -v python3 >/dev/null || echo python3
+  [[ $mode != packages ]] || command -v file >/dev/null || echo file
+  [[ $mode != packages ]] || command -v dpkg-shlibdeps >/dev/null || echo dpkg-dev
   [[ $mode != test ]] || command -v clang-tidy >/dev/null || echo clang-tidy
   [[ $mode != test ]] || command -v node >/dev/null || echo nodejs
   local package
@@ -161,6 +165,14 @@ case $mode in
     install_missing "${library_packages[@]}" "${picture_packages[@]}"
     configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON
     exec ./cmake/pictures.sh build/release/bin/dsc
+    ;;
+  packages)
+    (($# == 0)) || usage
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    install_missing "${library_packages[@]}" "${picture_packages[@]}"
+    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON
+    cd build/release
+    exec cpack
     ;;
   benchmarks)
     (($# == 0)) || [[ $# == 1 && $1 == --quick ]] || usage
