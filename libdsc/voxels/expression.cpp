@@ -13,8 +13,8 @@
 namespace dsc {
 namespace {
 
-/// muParser reads numbers in one locale for all parsers, whose tables libstdc++ makes for the first number,
-/// and readers take no lock: that one is read before two threads could.
+/// muParser reads numbers in one locale for all parsers, whose tables libstdc++ makes for the first
+/// number, and readers take no lock: that one is read before two threads could.
 void make_locale_ready() {
   static const double first = [] {
     mu::Parser parser;

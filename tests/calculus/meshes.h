@@ -148,7 +148,8 @@ inline OwnedMesh polygon_soup(unsigned seed) {
   return mesh;
 }
 
-/// digital_family(), its pinched member as polygons too, and polygons that are not planar and meet themselves.
+/// digital_family(), its pinched member as polygons too, and polygons that are not planar and meet
+/// themselves.
 inline std::vector<OwnedMesh> mixed_family() {
   std::vector<OwnedMesh> meshes = digital_family();
   meshes.push_back(meshes[2].as_polygons());

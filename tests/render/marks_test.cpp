@@ -100,6 +100,63 @@ TEST(Isolines, RunWhereTheValueIsAMultipleAndAreEquallyWide) {
   EXPECT_NEAR(sum, all, 1.5);  // but for the lines of the ends, 0 and 10, there are no others
 }
 
+/// Steps of height 1 that rise towards the viewer: `treads` quads deep and `width` wide, their
+/// risers unseen from the front. phi is the way over them, and a fifth of x.
+test::OwnMesh stairs(int steps, int treads, int width, Eigen::VectorXd& phi) {
+  test::OwnMesh mesh;
+  const int rows = steps * (treads + 1) + 1;
+  mesh.positions.resize(3, rows * (width + 1));
+  phi.resize(rows * (width + 1));
+  for (int j = 0; j < rows; ++j) {
+    const int step = j / (treads + 1), along = j % (treads + 1);
+    for (int i = 0; i <= width; ++i) {
+      mesh.positions.col(j * (width + 1) + i) << i, -(step * treads + along), step;
+      phi[j * (width + 1) + i] = j + 0.2 * i;
+    }
+  }
+  for (int j = 0; j + 1 < rows; ++j) {
+    for (int i = 0; i < width; ++i) {
+      const int v = j * (width + 1) + i;
+      mesh.corners.insert(mesh.corners.end(), {v, v + 1, v + width + 2, v + width + 1});
+    }
+  }
+  return mesh;
+}
+
+TEST(Isolines, DoNotBreakWhereStepsHideThem) {
+  // From this elevation a step hides 1 / tan 20° = 2.7 of 6 quads and its riser.
+  constexpr int kWidth = 16, kStep = 5;
+  Eigen::VectorXd phi;
+  const test::OwnMesh mesh = stairs(8, 6, kWidth, phi);
+  const Field field = scalar_field("phi", FieldOn::vertex, phi);
+  PictureOptions options = plain_lines(12);
+  options.view = View::of("0,20");
+  options.range = {{0., 60.}};
+  const Picture lined = draw(mesh.view(), field, options);
+  ASSERT_EQ(lined.isoline_step, kStep);
+  options.isolines = 0;
+  const Image bare = draw(mesh.view(), field, options).image;
+  const Camera camera(options.view, mesh.view(), {10, 10, 380, 380});
+  int columns = 0;
+  for (double x = 0.5; x < kWidth; x += 0.1) {
+    const auto column = static_cast<int>(camera(Vec3(x, 0, 0))[0]);
+    // The top and the bottom of the picture, where a line may be half, are not looked at.
+    const double low = 0.2 * x, high = low + 56;
+    if (std::abs(std::remainder(low, kStep)) < 1 || std::abs(std::remainder(high, kStep)) < 1)
+      continue;
+    ++columns;
+    int lines = 0;
+    bool inside = false;
+    for (int y = 0; y < bare.height; ++y) {
+      const double ratio =
+          rgb_of(lined.image.at(column, y)).sum() / rgb_of(bare.at(column, y)).sum();
+      if ((ratio < 0.8) != inside) lines += (inside = !inside) ? 1 : 0;
+    }
+    EXPECT_EQ(lines, std::floor(high / kStep) - std::floor(low / kStep)) << "x = " << x;
+  }
+  EXPECT_GT(columns, 30);
+}
+
 TEST(Isolines, DoNotOutlineWhatLiesBefore) {
   // Before a plane of value 0.25 to 0.75, a smaller one of the same values: no multiple of 1 lies
   // between, but at the edges the values jump.
