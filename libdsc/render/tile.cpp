@@ -121,7 +121,10 @@ void draw_tile(const Scene& scene, int left, int top, int right, int bottom, Ima
   std::vector<Point> traced(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(n));
   const auto index = [&](int x, int y, int k) {
-    return static_cast<std::size_t>(((y - top + kAround) * width + (x - left + kAround)) * n + k);
+    const auto pixel =
+        static_cast<std::size_t>(y - top + kAround) * static_cast<std::size_t>(width) +
+        static_cast<std::size_t>(x - left + kAround);
+    return pixel * static_cast<std::size_t>(n) + static_cast<std::size_t>(k);
   };
   const auto for_each = [&](int around, auto&& action) {
     for (int y = top - around; y < bottom + around; ++y) {
