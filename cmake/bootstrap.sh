@@ -112,6 +112,9 @@ configure_and_build() {
   cmake --build --preset "$preset" --parallel "$(build_jobs)"
 }
 
+# build_program [<cmake option>…]: the program and the library, as users run them.
+build_program() { configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF "$@"; }
+
 (($# >= 1)) || usage
 mode=$1
 shift
@@ -134,14 +137,14 @@ case $mode in
     [[ ${with_readers[*]} != *ITK* ]] || packages+=("${image_packages[@]}")
     [[ ${with_readers[*]} != *OPENVDB* ]] || packages+=("${vdb_packages[@]}")
     install_missing "${packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON "${with_readers[@]}"
+    build_program -DDSC_WITH_PICTURES=ON "${with_readers[@]}"
     exec ./cmake/demo.sh build/release/bin/dsc ${input:+"$input"}
     ;;
   atlas)
     (($# == 0)) || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     install_missing "${library_packages[@]}" "${image_packages[@]}" "${picture_packages[@]}" mricron-data
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON -DDSC_WITH_ITK=ON
+    build_program -DDSC_WITH_PICTURES=ON -DDSC_WITH_ITK=ON
     exec ./cmake/atlas.sh build/release/bin/dsc
     ;;
   test)
@@ -156,21 +159,21 @@ case $mode in
     (($# == 0)) || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     install_missing "${library_packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF
+    build_program
     exec ./cmake/figures.sh build/release/bin/dsc
     ;;
   pictures)
     (($# == 0)) || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     install_missing "${library_packages[@]}" "${picture_packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON
+    build_program -DDSC_WITH_PICTURES=ON
     exec ./cmake/pictures.sh build/release/bin/dsc
     ;;
   packages)
     (($# == 0)) || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     install_missing "${library_packages[@]}" "${picture_packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_WITH_PICTURES=ON
+    build_program -DDSC_WITH_PICTURES=ON
     cd build/release
     exec cpack
     ;;
@@ -178,7 +181,7 @@ case $mode in
     (($# == 0)) || [[ $# == 1 && $1 == --quick ]] || usage
     cd "$(dirname "${BASH_SOURCE[0]}")/.."
     install_missing "${library_packages[@]}" "${benchmark_packages[@]}"
-    configure_and_build release -DDSC_BUILD_TESTS=OFF -DDSC_BUILD_EXAMPLES=OFF -DDSC_BUILD_BENCHMARKS=ON
+    build_program -DDSC_BUILD_BENCHMARKS=ON
     bin=build/release/bin
     exec "$bin/dsc_benchmark_report" "$@" "$bin/dsc_benchmarks" "$bin/dsc" tests/benchmarks
     ;;

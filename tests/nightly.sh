@@ -99,7 +99,7 @@ for part in "${parts[@]}"; do
   case $part in
     plain | tidy | asan | tsan | valgrind | fuzz | long) ;;
     *)
-      sed -n '5,18p' "${BASH_SOURCE[0]}" >&2
+      sed -n '5,16p' "${BASH_SOURCE[0]}" >&2
       exit 2
       ;;
   esac

@@ -130,7 +130,8 @@ void LaplacianPattern::find_columns(const FlatMesh& mesh, const Context& context
   if (!digital_) {
     polygon_slots_.resize(static_cast<std::size_t>(pairs_before(faces_)));
   }
-  std::vector<std::vector<VertexId>> parts(static_cast<std::size_t>((V + kPatternGrain - 1) / kPatternGrain));
+  std::vector<std::vector<VertexId>> parts(
+      static_cast<std::size_t>((V + kPatternGrain - 1) / kPatternGrain));
   outer_.assign(static_cast<std::size_t>(V) + 1, 0);
 
   parallel_for(context, V, kPatternGrain, [&](Index first, Index last) {

@@ -5,17 +5,13 @@
 #include "libdsc/algorithms/poisson.h"
 #include "libdsc/base/error.h"
 #include "libdsc/calculus/assembly.h"
-#include "libdsc/normals/radius.h"
-#include "libdsc/normals/surface_normals.h"
 #include "libdsc/solve/spectrum.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
-#include "libdsc/voxels/digitize.h"
-#include "libdsc/voxels/shapes.h"
 #include "tests/algorithms/meshes.h"
-#include "tests/algorithms/spheres.h"
 #include "tests/solve/grid_systems.h"
 #include "tests/support/random_volume.h"
+#include "tests/support/spheres.h"
 
 #include <gtest/gtest.h>
 
@@ -264,7 +260,7 @@ TEST(Checkerboard, DistancesCrossASharedPointel) {
     return geodesic_distance(surface.flat(false), {&source, 1}, options).distance;
   };
   const Eigen::VectorXd with = distance({}), without = distance(with_mercat<GeodesicOptions>());
-  EXPECT_GT(with.maxCoeff(), 6);                           // the far corner of the second cube
+  EXPECT_GT(with.maxCoeff(), 6);                         // the far corner of the second cube
   EXPECT_LT((with - without).cwiseAbs().maxCoeff(), 1);  // a voxel
 }
 

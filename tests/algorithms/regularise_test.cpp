@@ -2,14 +2,13 @@
 
 #include "libdsc/algorithms/mean_curvature.h"
 #include "libdsc/base/error.h"
-#include "libdsc/normals/radius.h"
 #include "libdsc/normals/surface_normals.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
 #include "libdsc/voxels/digitize.h"
 #include "libdsc/voxels/shapes.h"
-#include "tests/algorithms/spheres.h"
 #include "tests/support/random_volume.h"
+#include "tests/support/spheres.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -71,8 +71,8 @@ TEST(Pictures, DistancesFromTheNorthPoleGrowDownwards) {
   const Folder folder;
   const Outcome outcome =
       run_dsc(kDistances + Words{"-o", folder / "x.png", "-o", folder / "x.ply", "--view", "front",
-                              "--picture-size", "320,240", "--colormap", "grey", "--isolines", "0",
-                              "--report", folder / "r.json"});
+                                 "--picture-size", "320,240", "--colormap", "grey", "--isolines",
+                                 "0", "--report", folder / "r.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(folder.names(), (Words{"r.json", "x.ply", "x.png"}));
   const Seen seen = read_png(folder / "x.png");

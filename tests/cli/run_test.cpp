@@ -371,7 +371,7 @@ TEST_P(RealVoxels, GoThroughEveryCommand) {
 
 INSTANTIATE_TEST_SUITE_P(Spot, RealVoxels,
                          ::testing::Values("spot-64.vol", "spot-128.vol", "spot-256.vol",
-                                         "spot-512.vol"));
+                                           "spot-512.vol"));
 
 }  // namespace
 }  // namespace dsc::test

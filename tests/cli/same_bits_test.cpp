@@ -70,7 +70,8 @@ void expect_same(const Words& words) {
   }
 }
 
-const Words kManyFaces = {"shape:sphere", "--gridstep", "0.03"};  // 20 866 faces: chunks of every loop
+const Words kManyFaces = {"shape:sphere", "--gridstep",
+                          "0.03"};  // 20 866 faces: chunks of every loop
 
 Words on(Words command, const Words& input) {
   command.insert(command.end(), input.begin(), input.end());

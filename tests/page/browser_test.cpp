@@ -39,7 +39,7 @@ double slope(const Vec3& p) { return p.dot(Vec3(1., 2., 3.)); }
 
 /// Voxels of the unit sphere with a function that is linear in space, so that it is known wherever
 /// the surface is drawn, a second one beside it, and one of the faces.
-class SpherePage : public testing::Test {
+class SpherePage : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!test::has_browser()) GTEST_SKIP() << test::kNoBrowser;
@@ -186,7 +186,7 @@ TEST_F(SpherePage, IsLightOrDark) {
 }
 
 /// Polygons around the middle of the first view, which looks at them from in front and above.
-class PolygonPage : public testing::Test {
+class PolygonPage : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!test::has_browser()) GTEST_SKIP() << test::kNoBrowser;

@@ -1,13 +1,11 @@
 // Pages as a person uses them: windows of any size, keys, fingers, every control.
-#include "libdsc/normals/radius.h"
-#include "libdsc/normals/surface_normals.h"
 #include "libdsc/page/page.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
-#include "libdsc/voxels/digitize.h"
-#include "libdsc/voxels/shapes.h"
+#include "libdsc/voxels/binary_volume.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/page/browser.h"
+#include "tests/support/spheres.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +80,7 @@ json size(int width, int height, bool mobile = false) {
 }
 
 /// Fields of every kind on voxels of the unit sphere.
-class UsedPage : public testing::Test {
+class UsedPage : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!test::can_drive()) GTEST_SKIP() << test::kNoDriver;
@@ -90,9 +88,7 @@ class UsedPage : public testing::Test {
   /// `fields` are made of the mesh.
   template <typename Fields>
   void write(double h, const Fields& fields) {
-    const BinaryVolume voxels = digitize(Sphere(1.), {h, h, h});
-    surface = extract_surface(voxels);
-    integral_invariant_normals(surface, voxels, {.radius = shape_radius(h)});
+    surface = testing::sphere(h);
     const FlatMesh mesh = surface.flat();
     write_page(folder / "used.html", {mesh, fields(mesh)});
   }
