@@ -74,12 +74,12 @@ HeatDiffusion::HeatDiffusion(const FlatMesh& mesh, double t, const DiffusionOpti
   solver_ = make_solver(options.factory, take(A), options.solver, context);
 }
 
-Solution HeatDiffusion::step(const Eigen::VectorXd& u0) const {
+Solution HeatDiffusion::step(const Eigen::VectorXd& u0, const Context& context) const {
   if (u0.size() != mass_.size()) {
     throw UsageError("diffusion: the function has " + std::to_string(u0.size()) + " values for " +
                      std::to_string(mass_.size()) + " vertices");
   }
-  if (components_.count() == 0) return solver_->solve(weight_.cwiseProduct(u0), u0);
+  if (components_.count() == 0) return solver_->solve(weight_.cwiseProduct(u0), u0, context);
   // The means stay as they are, and what varies around them is solved for alone: t L times a large
   // constant would be rounding only.
   const Eigen::VectorXd means = component_means(components_, weight_, u0);
@@ -87,14 +87,14 @@ Solution HeatDiffusion::step(const Eigen::VectorXd& u0) const {
   for (Index v = 0; v < u0.size(); ++v) {
     mean[v] = means[components_.of_vertex[static_cast<std::size_t>(v)]];
   }
-  Solution s = solver_->solve(weight_.cwiseProduct(u0 - mean));
+  Solution s = solver_->solve(weight_.cwiseProduct(u0 - mean), context);
   s.x += mean;
   return s;
 }
 
 Solution diffuse(const FlatMesh& mesh, const Eigen::VectorXd& u0, double t,
                  const DiffusionOptions& options, const Context& context) {
-  return HeatDiffusion(mesh, t, options, context).step(u0);
+  return HeatDiffusion(mesh, t, options, context).step(u0, context);
 }
 
 }  // namespace dsc

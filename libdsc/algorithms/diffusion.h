@@ -37,7 +37,7 @@ class HeatDiffusion {
 
   /// One step from `u0`, V values. Several steps: call it again on the result.
   /// \throws UsageError on another length, SolverError where u0 is not finite.
-  Solution step(const Eigen::VectorXd& u0) const;
+  Solution step(const Eigen::VectorXd& u0, const Context& context = {}) const;
 
   /// t.
   double time() const { return time_; }

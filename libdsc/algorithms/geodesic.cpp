@@ -137,7 +137,7 @@ struct GeodesicSolver::Data {
                     const Context& context) const {
     WideVector delta(mesh.vertices());
     for (const VertexId s : sources) delta.set(s, {1, 0});
-    w = h.reflected->solve_wide(delta);
+    w = h.reflected->solve_wide(delta, context);
     residual = componentwise_residual(h.A(), w, sources, {}, context);
     if (!(residual <= kHeatTolerance) || !reaches_everywhere(w, with_source)) return false;
     if (!h.absorbed) return true;
@@ -151,7 +151,7 @@ struct GeodesicSolver::Data {
     }
     if (!any) return true;
     // Where absorbed heat underflows it is nothing beside the reflected.
-    const WideVector absorbed = h.absorbed->solve_wide(delta);
+    const WideVector absorbed = h.absorbed->solve_wide(delta, context);
     for (Index v = 0; v < w.size(); ++v) w.add(v, absorbed.mantissa(v), absorbed.exponent(v));
     return true;
   }
@@ -316,7 +316,7 @@ GeodesicResult GeodesicSolver::distance(std::span<const VertexId> given,
     x.mantissa = std::abs(x.mantissa);
     guess[v] = x.mantissa == 0 ? 0. : -std::sqrt(report.time) * x.log();
   }
-  Solution phi = d.poisson->solve(-divergence, {}, guess);
+  Solution phi = d.poisson->solve(-divergence, {}, guess, context);
   report.poisson_residual = phi.relative_residual;
   report.poisson_iterations = phi.iterations;
   result.distance = std::move(phi.x);

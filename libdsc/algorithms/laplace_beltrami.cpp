@@ -47,13 +47,13 @@ Eigen::VectorXd LaplaceBeltrami::pointwise(const Eigen::VectorXd& f) const {
   return (system_.L * f).cwiseQuotient(weight_);
 }
 
-Solution LaplaceBeltrami::smoothed(const Eigen::VectorXd& g) const {
+Solution LaplaceBeltrami::smoothed(const Eigen::VectorXd& g, const Context& context) const {
   if (!solver_) {
     Solution same;
     same.x = g;
     return same;
   }
-  return solver_->solve(weight_.cwiseProduct(g), g);
+  return solver_->solve(weight_.cwiseProduct(g), g, context);
 }
 
 }  // namespace dsc

@@ -37,9 +37,11 @@ class LaplaceBeltrami {
   /// \throws UsageError on another length, InputError where f is not finite.
   Eigen::VectorXd pointwise(const Eigen::VectorXd& f) const;
   /// (M0 − t L)⁻¹ M0 g, for values g that are there already; g itself where t = 0.
-  Solution smoothed(const Eigen::VectorXd& g) const;
+  Solution smoothed(const Eigen::VectorXd& g, const Context& context = {}) const;
   /// The two in turn: Δf.
-  Solution operator()(const Eigen::VectorXd& f) const { return smoothed(pointwise(f)); }
+  Solution operator()(const Eigen::VectorXd& f, const Context& context = {}) const {
+    return smoothed(pointwise(f), context);
+  }
 
   /// L and M0.
   const LaplaceSystem& system() const { return system_; }

@@ -30,7 +30,7 @@ MeanCurvature mean_curvature(const FlatMesh& mesh, Vec3View positions, const Ver
     const Eigen::VectorXd x = positions.matrix().row(axis).transpose();
     result.mean -= 0.5 * laplacian.pointwise(x).cwiseProduct(normals.u.row(axis).transpose());
   }
-  Solution smoothed = laplacian.smoothed(result.mean);
+  Solution smoothed = laplacian.smoothed(result.mean, context);
   result.mean = std::move(smoothed.x);
   result.relative_residual = smoothed.relative_residual;
   return result;

@@ -51,19 +51,20 @@ PoissonProblem::PoissonProblem(const FlatMesh& mesh, std::span<const VertexId> f
   }
 }
 
-Solution PoissonProblem::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const {
+Solution PoissonProblem::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values,
+                               const Context& context) const {
   if (neumann_) {
-    Solution s = neumann_->solve(-b, weight_);
+    Solution s = neumann_->solve(-b, weight_, {}, context);
     if (filter_) filter_->remove(s.x, weight_);
     return s;
   }
-  return dirichlet_->solve(-b, values);
+  return dirichlet_->solve(-b, values, context);
 }
 
 Solution solve_poisson(const FlatMesh& mesh, const Eigen::VectorXd& b,
                        std::span<const VertexId> fixed, const Eigen::VectorXd& values,
                        const PoissonOptions& options, const Context& context) {
-  return PoissonProblem(mesh, fixed, options, context).solve(b, values);
+  return PoissonProblem(mesh, fixed, options, context).solve(b, values, context);
 }
 
 }  // namespace dsc

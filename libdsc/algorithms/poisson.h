@@ -39,7 +39,8 @@ class PoissonProblem {
   /// φ for the integrated right-hand side `b` (V). `values` (V) are read at fixed vertices, and may
   /// be empty where there are none. \throws InputError where b does not sum to zero on a component
   /// (with mercat, on a class; Neumann).
-  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values = {}) const;
+  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values = {},
+                 const Context& context = {}) const;
 
   const Eigen::VectorXd& mass() const { return mass_; }  ///< the diagonal of M0
   /// Faces whose normal was tilted back (embedding.h).

@@ -130,7 +130,7 @@ class CholmodSolver final : public SpdSolver {
   }
 
  protected:
-  Correction correct(const Eigen::VectorXd& r, double) const override {
+  Correction correct(const Eigen::VectorXd& r, double, const Context&) const override {
     if (!factor_) return {r, 0};
     cholmod_dense view{};
     view.nrow = view.nzmax = view.d = static_cast<std::size_t>(r.size());

@@ -87,7 +87,8 @@ DirichletSolver::DirichletSolver(const SparseMatrix& A, std::span<const VertexId
   solver_ = make_solver(factory, take(reduced), options, context);
 }
 
-Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const {
+Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values,
+                                const Context& context) const {
   check_length(b, n_, "Dirichlet: the right-hand side");
   check_length(values, n_, "Dirichlet: the values");
   if (!values.allFinite()) throw SolverError("Dirichlet: a value is not finite");
@@ -101,7 +102,7 @@ Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd&
     guess[i] = values[free_[static_cast<std::size_t>(i)]];
   }
   rhs.noalias() -= coupling_ * values;
-  Solution inner = solver_->solve(rhs, guess);
+  Solution inner = solver_->solve(rhs, guess, context);
   for (Index i = 0; i < free_unknowns(); ++i) {
     result.x[free_[static_cast<std::size_t>(i)]] = inner.x[i];
   }
@@ -112,7 +113,7 @@ Solution DirichletSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd&
 
 NeumannSolver::NeumannSolver(SparseMatrix A, Components components, const SolverOptions& options,
                              const Context& context, const SpdSolverFactory& factory)
-    : components_(std::move(components)), tolerance_(options.tolerance), context_{context.threads} {
+    : components_(std::move(components)), tolerance_(options.tolerance) {
   if (static_cast<Index>(components_.of_vertex.size()) != A.rows()) {
     throw UsageError("Neumann: the components are those of another mesh");
   }
@@ -130,7 +131,7 @@ NeumannSolver::NeumannSolver(SparseMatrix A, Components components, const Solver
 }
 
 Solution NeumannSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& weights,
-                              const Eigen::VectorXd& guess) const {
+                              const Eigen::VectorXd& guess, const Context& context) const {
   const auto n = static_cast<Index>(components_.of_vertex.size());
   check_length(b, n, "Neumann: the right-hand side");
   if (weights.size() != 0) check_length(weights, n, "Neumann: the weights");
@@ -160,9 +161,9 @@ Solution NeumannSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& w
   }
   Solution result;
   if (direct_) {
-    result = direct_->solve(b, start);
+    result = direct_->solve(b, start, context);
   } else {
-    MultigridSolver::Solution s = multigrid_->solve(b, &start, tolerance_, context_);
+    MultigridSolver::Solution s = multigrid_->solve(b, &start, tolerance_, context);
     result = {std::move(s.x), s.relative_residual, s.iterations};
   }
   const Eigen::VectorXd mean = component_means(components_, weights, result.x);

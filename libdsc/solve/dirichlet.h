@@ -29,7 +29,8 @@ class DirichletSolver {
   /// `b` and `values` have n entries; x equals `values` at the fixed vertices, exactly, and A x = b
   /// at all others. `values` at free vertices is the first guess of iterative methods. The residual
   /// is that of the reduced system. \throws as SpdSolver::solve does.
-  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values) const;
+  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& values,
+                 const Context& context = {}) const;
 
   /// n less the fixed ones.
   Index free_unknowns() const { return static_cast<Index>(free_.size()); }
@@ -56,12 +57,11 @@ class NeumannSolver {
   /// `guess` (empty or n entries) is the first guess of iterative methods.
   /// \throws InputError where a component's b does not sum to zero: no solution exists.
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& weights = {},
-                 const Eigen::VectorXd& guess = {}) const;
+                 const Eigen::VectorXd& guess = {}, const Context& context = {}) const;
 
  private:
   Components components_;
   double tolerance_;
-  Context context_;  ///< threads only: a monitor may not live as long
   std::optional<DirichletSolver> direct_;
   std::optional<MultigridSolver> multigrid_;  ///< takes the singular matrix as it is
 };

@@ -16,7 +16,7 @@ class LdltSolver final : public SpdSolver {
     context.check();
   }
 
-  WideVector solve_wide(const WideVector& b) const override {
+  WideVector solve_wide(const WideVector& b, const Context&) const override {
     if (b.size() != size()) throw UsageError("LDLT: the right-hand side has a wrong length");
     WideVector x = b;
     factor_.solve_in_place(x);
@@ -24,7 +24,7 @@ class LdltSolver final : public SpdSolver {
   }
 
  protected:
-  Correction correct(const Eigen::VectorXd& r, double) const override {
+  Correction correct(const Eigen::VectorXd& r, double, const Context&) const override {
     return {factor_.solve(r), 0};
   }
 

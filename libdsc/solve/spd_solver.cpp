@@ -30,7 +30,6 @@ class MultigridSpd final : public SpdSolver {
  public:
   MultigridSpd(SparseMatrix&& A, const SolverOptions& options, const Context& context)
       : SpdSolver(std::move(A), options),
-        context_{context.threads},  // not its monitor, which may not live as long
         multigrid_(shared_matrix(), MultigridOptions{}, context),
         automatic_(options.method == SolverMethod::automatic) {
     if (multigrid_.report().singular_components > 0) {
@@ -41,20 +40,20 @@ class MultigridSpd final : public SpdSolver {
   }
 
  protected:
-  Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const override {
+  Correction correct(const Eigen::VectorXd& r, double relative_tolerance,
+                     const Context& context) const override {
     try {
-      MultigridSolver::Solution s = multigrid_.solve(r, nullptr, relative_tolerance, context_);
+      MultigridSolver::Solution s = multigrid_.solve(r, nullptr, relative_tolerance, context);
       return {std::move(s.x), s.iterations};
     } catch (const SolverError&) {
       if (!automatic_) throw;
     }
     const std::lock_guard lock(mutex_);
-    if (!factor_) factor_.emplace(matrix());
+    if (!factor_) factor_.emplace(matrix(), FillOrder::nested_dissection, context);
     return {factor_->solve(r), 0};
   }
 
  private:
-  Context context_;
   MultigridSolver multigrid_;
   bool automatic_;
   mutable std::mutex mutex_;
@@ -79,19 +78,21 @@ SpdSolver::SpdSolver(SparseMatrix&& A, const SolverOptions& options)
   }
 }
 
-Solution SpdSolver::solve(const Eigen::VectorXd& b) const {
+Solution SpdSolver::solve(const Eigen::VectorXd& b, const Context& context) const {
   check_length(b.size(), size(), "right-hand side");
-  return finish(b, Eigen::VectorXd::Zero(size()));
+  return finish(b, Eigen::VectorXd::Zero(size()), context);
 }
 
-Solution SpdSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const {
+Solution SpdSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                          const Context& context) const {
   check_length(b.size(), size(), "right-hand side");
   check_length(guess.size(), size(), "first guess");
   if (!guess.allFinite()) throw SolverError("solve: the first guess is not finite");
-  return finish(b, guess);
+  return finish(b, guess, context);
 }
 
-Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
+Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x,
+                           const Context& context) const {
   if (!b.allFinite()) throw SolverError("solve: the right-hand side is not finite");
   Solution s;
   const double scale = b.stableNorm();
@@ -111,7 +112,7 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
   // error.
   for (int pass = 0; pass < 2 && !(residual <= tolerance_ && (pass > 0 || residual == 0)); ++pass) {
     const Correction correction =
-        correct(r, std::min(0.5, tolerance_ / std::max(residual, 1e-300)));
+        correct(r, std::min(0.5, tolerance_ / std::max(residual, 1e-300)), context);
     s.iterations += correction.iterations + (pass > 0 && correction.iterations == 0 ? 1 : 0);
     x += correction.c;
     r = b;
@@ -130,7 +131,7 @@ Solution SpdSolver::finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const {
   return s;
 }
 
-WideVector SpdSolver::solve_wide(const WideVector& b) const {
+WideVector SpdSolver::solve_wide(const WideVector& b, const Context& context) const {
   check_length(b.size(), size(), "right-hand side");
   bool any = false;
   std::int32_t top = 0;
@@ -141,7 +142,7 @@ WideVector SpdSolver::solve_wide(const WideVector& b) const {
   }
   Eigen::VectorXd scaled(size());
   for (Index i = 0; i < size(); ++i) scaled[i] = b.relative_to(i, top);
-  const Eigen::VectorXd x = solve(scaled).x;
+  const Eigen::VectorXd x = solve(scaled, context).x;
   WideVector result(size());
   for (Index i = 0; i < size(); ++i) {
     Wide w{std::abs(x[i]) < 1e-290 ? 0. : x[i], top};  // below, digits are missing

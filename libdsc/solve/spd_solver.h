@@ -2,10 +2,11 @@
 /// Symmetric positive definite systems A x = b, behind one interface, each solve checked.
 ///
 /// A solver is built ready for use: it owns its copy of A and its factorization or hierarchy, so
-/// nothing can go stale, and solves are const and may run from several threads at once. Every solve
-/// computes its true relative residual ||b - A x|| / ||b|| with the matrix as given (both
-/// triangles), corrects x once where it is above the tolerance, and throws where it still is. A
-/// matrix that is singular, indefinite or not finite never gives an answer.
+/// nothing can go stale, and solves are const and may run from several threads at once, each under
+/// a context of its own. Every solve computes its true relative residual ||b - A x|| / ||b|| with
+/// the matrix as given (both triangles), corrects x once where it is above the tolerance, and
+/// throws where it still is. A matrix that is singular, indefinite or not finite never gives an
+/// answer.
 #pragma once
 
 #include "libdsc/base/context.h"
@@ -60,16 +61,17 @@ class SpdSolver {
 
   /// x with A x = b. `b` has size() entries.
   /// \throws UsageError on another length, SolverError where b is not finite or the residual stays
-  /// above the tolerance.
-  Solution solve(const Eigen::VectorXd& b) const;
+  /// above the tolerance; Cancelled.
+  Solution solve(const Eigen::VectorXd& b, const Context& context = {}) const;
   /// The same from a first guess: iterative methods only solve for what it leaves.
-  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) const;
+  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                 const Context& context = {}) const;
 
   /// A x = b where x spans more than double's range, for heat far from its source. The residual of
   /// the largest entries says nothing about the others, so it is the caller who checks. This
   /// default solves in doubles and gives 0 where that loses the value; the LDLT solver's own does
   /// not.
-  virtual WideVector solve_wide(const WideVector& b) const;
+  virtual WideVector solve_wide(const WideVector& b, const Context& context = {}) const;
 
  protected:
   /// \throws UsageError unless `A` is square and the tolerance in (0, 1); SolverError where an
@@ -83,12 +85,13 @@ class SpdSolver {
     Index iterations = 0;  ///< 0 for direct methods
   };
   /// Called from several threads at once. `r` is finite. \throws SolverError where it cannot.
-  virtual Correction correct(const Eigen::VectorXd& r, double relative_tolerance) const = 0;
+  virtual Correction correct(const Eigen::VectorXd& r, double relative_tolerance,
+                             const Context& context) const = 0;
   /// For a method that needs the matrix as long as it lives.
   const std::shared_ptr<const SparseMatrix>& shared_matrix() const { return matrix_; }
 
  private:
-  Solution finish(const Eigen::VectorXd& b, Eigen::VectorXd x) const;
+  Solution finish(const Eigen::VectorXd& b, Eigen::VectorXd x, const Context& context) const;
 
   std::shared_ptr<const SparseMatrix> matrix_;
   double tolerance_;

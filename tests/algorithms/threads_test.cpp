@@ -27,7 +27,7 @@ void expect_same_bits(const Solve& solve) {
 TEST(Threads, DoNotChangeTheBitsOfDiffusion) {
   const Eigen::VectorXd heat = sphere().positions.row(0).array().square().transpose();
   expect_same_bits([&](const Context& context) {
-    return HeatDiffusion(sphere().flat(), 0.01, {}, context).step(heat).x;
+    return HeatDiffusion(sphere().flat(), 0.01, {}, context).step(heat, context).x;
   });
 }
 
@@ -41,7 +41,7 @@ TEST(Threads, DoNotChangeTheBitsOfPoissonByEitherMethod) {
       const PoissonProblem problem(sphere().flat(), {}, options, context);
       Eigen::VectorXd b = problem.mass().cwiseProduct(xy);
       b.array() -= b.mean();
-      return problem.solve(b).x;
+      return problem.solve(b, {}, context).x;
     });
   }
 }

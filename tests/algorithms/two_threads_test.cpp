@@ -64,13 +64,13 @@ void measure(const DigitalSurface& surface, const std::string& path, const Conte
   GeodesicOptions direct;
   direct.method = HeatMethod::direct;
   out.add(geodesic_distance(mesh, sources, direct, context).distance);
-  out.add(HeatDiffusion(mesh, 0.01, {}, context).step(f).x);
+  out.add(HeatDiffusion(mesh, 0.01, {}, context).step(f, context).x);
   PoissonOptions poisson;
   poisson.solver.method = SolverMethod::multigrid;
   const PoissonProblem problem(mesh, {}, poisson, context);
   Eigen::VectorXd b = problem.mass().cwiseProduct(f);
   b.array() -= b.mean();
-  out.add(problem.solve(b).x);
+  out.add(problem.solve(b, {}, context).x);
   const LaplaceSystem system = assemble_laplacian(mesh, {}, context);
   out.add(lowest_spectrum(-system.L, system.mass, {.count = 4}, context).values);
   Result result;

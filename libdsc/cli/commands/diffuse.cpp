@@ -27,7 +27,7 @@ Eigen::VectorXd heat_of(const FlatMesh& mesh, const std::vector<VertexId>& sourc
   for (const VertexId v : sources) heat[v] = 1. / diffusion->mass()[v];
   {
     const Stopwatch watch(timings.solve);
-    heat = diffusion->step(heat).x;
+    heat = diffusion->step(heat, run.context).x;
   }
   return heat;
 }

@@ -33,7 +33,7 @@ LaplacianAnswer laplacian_of(const Expression& f, const SmoothSurface& surface, 
   note_calculus(surface.mesh.has_normals(), options.calculus, op->system().clamped_faces, run);
   {
     const Stopwatch watch(timings.solve);
-    answer.laplacian = (*op)(answer.values).x;
+    answer.laplacian = (*op)(answer.values, run.context).x;
   }
   return answer;
 }

@@ -101,7 +101,7 @@ PoissonAnswer solve(const FlatMesh& mesh, const Conditions& conditions, Eigen::V
   Solution solution;
   {
     const Stopwatch watch(timings.solve);
-    solution = problem->solve(problem->mass().cwiseProduct(density), values);
+    solution = problem->solve(problem->mass().cwiseProduct(density), values, run.context);
   }
   if (fix) remove_means(solution.x, problem->mass(), conditions);
   report.relative_residual = solution.relative_residual;
