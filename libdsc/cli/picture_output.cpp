@@ -85,7 +85,7 @@ render::Picture draw(const Scene& scene, const Result& result, const Result& pla
 void write_picture(const std::string& path, const Scene& scene, const Result& result,
                    const Result& placed, Run& run) {
   const render::Picture picture = draw(scene, result, placed, run);
-  render::write_png(path, picture.image);
+  render::write_png(path, picture.image, run.context);
   run.report.pictures.push_back({path, picture.title, picture.colormap, picture.low, picture.high,
                                  picture.isoline_step, picture.missing});
   if (picture.missing > 0) {

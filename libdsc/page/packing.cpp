@@ -1,6 +1,7 @@
 #include "libdsc/page/packing.h"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 
 #include <zlib.h>
@@ -26,16 +27,20 @@ std::string byte_planes(std::span<const std::int32_t> values, std::size_t compon
   return planes;
 }
 
-std::string deflated(std::string_view bytes) {
-  // Streamed: compress() counts in unsigned long, but avail_in is 32 bits wide.
+std::string deflated(std::string_view bytes, const Context& context) {
+  // Streamed, so that it can be cancelled.
   z_stream stream{};
   if (deflateInit(&stream, 6) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(
+      &stream, [](z_stream* s) { return deflateEnd(s); });
   std::string out;
+  out.reserve(deflateBound(&stream, bytes.size()));  // what is not written takes no memory
   std::string buffer(std::size_t{1} << 16, '\0');
-  constexpr std::size_t kMost = std::size_t{1} << 30;
+  constexpr std::size_t kMost = std::size_t{1} << 20;  // 50 ms
   std::size_t done = 0;
   int state = Z_OK;
   while (state != Z_STREAM_END) {
+    context.check();
     const std::size_t count = std::min(kMost, bytes.size() - done);
     // zlib does not write to its input, though its type says so.
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + done));
@@ -49,12 +54,12 @@ std::string deflated(std::string_view bytes) {
       out.append(buffer.data(), buffer.size() - stream.avail_out);
     } while (stream.avail_out == 0);
   }
-  deflateEnd(&stream);
   return out;
 }
 
-std::string packed(std::span<const std::int32_t> values, std::size_t components) {
-  return deflated(byte_planes(values, components));
+std::string packed(std::span<const std::int32_t> values, std::size_t components,
+                   const Context& context) {
+  return deflated(byte_planes(values, components), context);
 }
 
 }  // namespace dsc::detail

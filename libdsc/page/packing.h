@@ -15,6 +15,8 @@
 /// Lossless for any integers. The page's codec.js is the reader.
 #pragma once
 
+#include "libdsc/base/context.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,10 +27,11 @@ namespace dsc::detail {
 /// Steps 1 to 3. \pre `values` has a multiple of `components` elements.
 std::string byte_planes(std::span<const std::int32_t> values, std::size_t components);
 
-/// Step 4: a zlib stream. \throws std::bad_alloc.
-std::string deflated(std::string_view bytes);
+/// Step 4: a zlib stream. \throws std::bad_alloc; Cancelled.
+std::string deflated(std::string_view bytes, const Context& context = {});
 
 /// All four steps.
-std::string packed(std::span<const std::int32_t> values, std::size_t components);
+std::string packed(std::span<const std::int32_t> values, std::size_t components,
+                   const Context& context = {});
 
 }  // namespace dsc::detail

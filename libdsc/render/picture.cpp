@@ -58,6 +58,7 @@ Rectangle with_room_for_arrows(const Rectangle& area, int glyphs) {
 Picture draw_painted(const FlatMesh& mesh, const Paint& paint, const Field* vectors,
                      const PictureOptions& options, const Context& context) {
   const bool true_normals = uses_true_normals(mesh, options.shading);
+  context.need("draw", static_cast<Index>(sizeof(Pixel)) * options.width * options.height);
   Picture picture;
   picture.image = Image(options.width, options.height);
   const double shorter = std::min(options.width, options.height);
@@ -158,6 +159,7 @@ Picture draw(const FlatMesh& mesh, const Field& field, const PictureOptions& opt
              const Context& context) {
   options.check();
   check_mesh(mesh);
+  context.need("draw", 8 * std::ssize(field.values));  // or their lengths
   const auto paint = field_paint(mesh, field, options.colormap, options.range);
   if (field.parts.size() != 3) check_no_arrows(options);
   return draw_painted(mesh, *paint, field.parts.size() == 3 ? &field : nullptr, options, context);
@@ -174,6 +176,7 @@ Picture draw_labels(const FlatMesh& mesh, std::span<const double> inner,
         fmt::format("{} and {} labels for {} faces", inner.size(), outer.size(), faces));
   }
   check_no_arrows(options);
+  context.need("draw", 16 * mesh.faces());
   return draw_painted(mesh, *label_paint(inner, outer), nullptr, options, context);
 }
 

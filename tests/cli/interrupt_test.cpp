@@ -110,6 +110,7 @@ struct Stage {
   const char* name;
   Words job;      ///< spends some time in that stage
   int later = 0;  ///< milliseconds from its begin to the work that the bar has no name for
+  std::string ending = "ply";  ///< of the second file; the first is r.csv, or r.vol of voxels
 };
 
 /// A compressed volume of n^3 voxels; `value` of each.
@@ -148,10 +149,10 @@ constexpr const char* kBig = "big.vol";      ///< 600^3 voxels, one of them insi
 constexpr const char* kRough = "rough.vol";  ///< random labels: every other face is a surfel
 constexpr const char* kMesh = "mesh.off";
 
-const std::vector<Stage>& stages() {
+std::vector<Stage> all_stages() {
   const Words source = {"--source-vertex", "0"};
   const Words diffuse = Words{"diffuse", kRough, "--time", "1", "--calculus", "naive"} + source;
-  static const std::vector<Stage> all = {
+  std::vector<Stage> all = {
       {"read", {"surface", kBig, "--labels", "all"}},
       {"read", {"surface", kMesh}},
       {"digitize",
@@ -180,13 +181,29 @@ const std::vector<Stage>& stages() {
       {"heat", Words{"geodesic"} + source + kFine},
       {"distance", Words{"geodesic"} + source + kFine},
       {"distance", Words{"geodesic"} + source + kFine, 300},
+      {"divergence", Words{"geodesic"} + source + kFine},
+      {"checkerboards", Words{"poisson", "--rhs", "x*y", "--stabilisation", "mercat"} + kFine},
       {"set up multigrid", Words{"poisson", "--rhs", "x*y"} + kFine},
       {"set up multigrid", Words{"poisson", "--rhs", "x*y"} + kFine, 600},
+      {"solve", Words{"poisson", "--rhs", "x*y"} + kFine},
       {kWriting, Words{"surface"} + Words(kFine.begin(), kFine.begin() + 3)},
       {kWriting, Words{"normals"} + kFine, 60},
-      {"write", {"voxels", kBig}},
-      {"write", {"voxels", kBig, "--labels", "all"}, 300},
+      {"write", {"voxels", kBig}, 0, "vti"},
+      {"write", {"voxels", kBig, "--labels", "all"}, 300, "vti"},
+      {"write", Words{"normals"} + kFine, 0, "glb"},
   };
+  for (const std::string& ending : seen_endings()) {
+    const bool picture = ending == "png";
+    const Words size = picture ? Words{"--picture-size", "4000,3000"} : Words{};
+    for (const int later : {0, 300}) {
+      all.push_back({picture ? "draw" : "page", Words{"normals"} + kFine + size, later, ending});
+    }
+  }
+  return all;
+}
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> all = all_stages();
   return all;
 }
 
@@ -214,8 +231,7 @@ TEST_P(InterruptStage, EndsWithinASecondAndLeavesWhatWasThere) {
   const Folder inputs;
   Words job;
   for (const std::string& word : stage.job) job.push_back(made_input(word, inputs));
-  const bool volumes = job[0] == "voxels";
-  const std::string old = volumes ? "r.vol" : "r.csv", other = volumes ? "r.vti" : "r.ply";
+  const std::string old = job[0] == "voxels" ? "r.vol" : "r.csv", other = "r." + stage.ending;
   for (const int after :
        testing::usually_or_long(std::vector<int>{10}, std::vector<int>{0, 20, 70, 150})) {
     // A stage shorter than it takes to see its name may be over: then once more.

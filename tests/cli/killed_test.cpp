@@ -26,11 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 const Words kJob = {"surface", "shape:sphere", "--gridstep", "0.01", "--quiet"};
 
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 bool is_temporary(const std::string& name) { return name.find(".tmp-") != std::string::npos; }
 
 /// Waits until a temporary is in `folder`. False where the program has ended before.
@@ -51,7 +46,7 @@ TEST(Killed, AtAnyMomentTheOldFileOrTheNewOneIsThereWhole) {
   for (const std::string name : {"s.ply", "s.vtp"}) {
     const Folder whole;
     const auto start = Clock::now();
-    ASSERT_EQ(run_dsc(with(kJob, {"-o", whole / name})).exit_code, 0);
+    ASSERT_EQ(run_dsc(kJob + Words{"-o", whole / name}).exit_code, 0);
     const auto duration = Clock::now() - start;
     const std::string truth = read_file(whole / name);
     const Folder folder;  // one for all runs: what one leaves must not harm the next
@@ -69,7 +64,7 @@ TEST(Killed, AtAnyMomentTheOldFileOrTheNewOneIsThereWhole) {
       const bool at_the_file = run % 4 < 2;
       const double part =
           std::uniform_real_distribution<double>(0, at_the_file ? 0.15 : 1.1)(random);
-      const Outcome outcome = run_dsc(with(kJob, {"-o", folder / name}), {}, [&](int child) {
+      const Outcome outcome = run_dsc(kJob + Words{"-o", folder / name}, {}, [&](int child) {
         if (at_the_file && std::none_of(before.begin(), before.end(), is_temporary)) {
           wait_for_temporary(folder, child);
         }
@@ -92,7 +87,7 @@ TEST(Killed, AtAnyMomentTheOldFileOrTheNewOneIsThereWhole) {
       ASSERT_TRUE(is_new || outcome.exit_code != 0) << "run " << run;
       for (const std::string& left : after) ASSERT_TRUE(left == name || is_temporary(left)) << left;
     }
-    EXPECT_EQ(run_dsc(with(kJob, {"-o", folder / name})).exit_code, 0);
+    EXPECT_EQ(run_dsc(kJob + Words{"-o", folder / name}).exit_code, 0);
     EXPECT_TRUE(read_file(folder / name) == truth);
   }
   std::printf("%d runs: %d killed, %d of them with a file under way; %d new files\n", runs, killed,
@@ -121,18 +116,34 @@ class SmallDisk {
 
 TEST(Killed, AFullDiskKeepsTheOldFile) {
   const Folder folder;
-  const SmallDisk disk(folder / "disk", "size=2m");
+  const SmallDisk disk(folder / "disk", "size=256k");
   if (!disk.there()) GTEST_SKIP() << "no disk can be mounted here; root may";
-  for (const std::string ending : {"ply", "vtp", "csv", "off", "obj", "stl", "om"}) {
+  const std::string input = folder / "random.vol";
+  std::mt19937 random(5);
+  std::string voxels = "X: 100\nY: 100\nZ: 100\nVersion: 2\n.\n";
+  for (int i = 0; i < 1000000; ++i) voxels += static_cast<char>(random());
+  write_file(input, voxels);
+  const auto expect_kept = [&](const std::string& ending, const Words& job) {
     const std::string path = folder / ("disk/s." + ending);
     write_file(path, "old");
-    const Outcome outcome = run_dsc(with(kJob, {"-o", path}));
+    const Outcome outcome = run_dsc(job + Words{"-o", path});
     EXPECT_EQ(outcome.exit_code, 3) << ending;
     EXPECT_NE(outcome.err.find("s." + ending), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("No space left"), std::string::npos) << outcome.err;
     EXPECT_EQ(read_file(path), "old");
     fs::remove(path);
     EXPECT_TRUE(fs::is_empty(folder / "disk")) << ending;
+  };
+  for (const std::string ending : {"ply", "vtp", "csv", "off", "obj", "stl", "om", "glb"}) {
+    expect_kept(ending, kJob);
+  }
+  for (const std::string ending : {"vol", "longvol", "npy", "vti"}) {
+    expect_kept(ending, {"voxels", input, "--labels", "all", "--quiet"});
+  }
+  for (const std::string& ending : seen_endings()) {
+    Words job = kJob;
+    if (ending == "png") job = job + Words{"--picture-size", "2000,2000"};
+    expect_kept(ending, job);
   }
 }
 
@@ -166,7 +177,7 @@ TEST(Killed, AFolderThatVanishesOrIsShutMeanwhileIsAnError) {
       bool in_time = true;
       const std::string moved = folder / "moved";
       const Outcome outcome =
-          run_dsc(with(kJob, {"-o", sub_of / "s.ply"}), in_child, [&](int child) {
+          run_dsc(kJob + Words{"-o", sub_of / "s.ply"}, in_child, [&](int child) {
             if (writing) {
               in_time = wait_for_temporary(sub_of, child);
             } else {

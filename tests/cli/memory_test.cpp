@@ -194,16 +194,34 @@ TEST(MaxMemory, TooLargeIsASentence) {
   }
 }
 
+/// So do pictures and pages, when the surface is there already.
+TEST(MaxMemory, TooLargeToBeSeenIsASentence) {
+  const Folder folder;
+  for (const std::string& ending : seen_endings()) {
+    const Words words = {"curvature",    "shape:sphere", "--gridstep", "0.01",
+                         "--radius",     "0.1",          "-o",         folder / ("s." + ending),
+                         "--max-memory", "80M"};
+    expect_refused(run_dsc(words), 4,
+                   {ending == "png" ? "'draw'" : "'page'", "needs about", "80.0 MiB are allowed"});
+    EXPECT_EQ(folder.names(), Words{});
+  }
+}
+
 /// A run stays within its limit, wherever that lies and whether it ends or is refused, but for what
 /// the allocator keeps and threads take.
 TEST(MaxMemory, BoundsARun) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
-  const Words jobs[] = {{"geodesic", "--source", "0,0,1", "--method", "bands"},
-                        {"geodesic", "--source", "0,0,1", "--method", "direct"},
-                        {"poisson", "--rhs", "x"},
-                        {"spectrum", "-k", "20"}};
+  const Folder folder;
+  std::vector<Words> jobs = {{"geodesic", "--source", "0,0,1", "--method", "bands"},
+                             {"geodesic", "--source", "0,0,1", "--method", "direct"},
+                             {"poisson", "--rhs", "x"},
+                             {"spectrum", "-k", "20"}};
+  for (const std::string& ending : seen_endings()) {
+    jobs.push_back({"normals", "-o", folder / ("s." + ending)});
+    if (ending == "png") jobs.back() = jobs.back() + Words{"--picture-size", "1500,1000"};
+  }
   int refused = 0, done = 0;
   for (const Words& job : jobs) {
     for (const int mebi : {30, 50, 75, 100, 150, 200, 300, 400}) {

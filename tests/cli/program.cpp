@@ -1,5 +1,7 @@
 #include "tests/cli/program.h"
 
+#include "libdsc/page/page.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,6 +101,15 @@ std::vector<std::string> Folder::names() const {
 std::string test_data(const std::string& name) {
   const char* folder = std::getenv("DSC_TEST_DATA");
   return folder == nullptr ? "" : (fs::path(folder) / name).string();
+}
+
+Words seen_endings() {
+  Words endings;
+#ifdef DSC_WITH_PICTURES
+  endings.emplace_back("png");
+#endif
+  if (has_pages()) endings.emplace_back("html");
+  return endings;
 }
 
 std::string read_file(const std::string& path) {

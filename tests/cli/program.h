@@ -57,6 +57,9 @@ class Folder {
 /// The report of a run that succeeds; null where it does not, and the test fails.
 nlohmann::json report_of(const Words& arguments);
 
+/// The endings of pictures and pages, where this build makes them.
+Words seen_endings();
+
 /// A file of DSC_TEST_DATA, or "" where that is not set.
 std::string test_data(const std::string& name);
 

@@ -29,15 +29,17 @@ struct Files {
 /// The forms that a command is to write.
 Words endings_of(const std::string& command) {
   if (command == "info") return {};
-  if (command == "surface") return {"ply", "vtp", "csv", "off", "obj", "stl", "om"};
   if (command == "voxels") return {"vol", "longvol", "npy", "vti"};
-  return {"ply", "vtp", "csv"};
+  Words endings = {"ply", "vtp", "csv", "glb"};
+  if (command == "surface") endings.insert(endings.end(), {"off", "obj", "stl", "om"});
+  return endings + seen_endings();
 }
 
 Files files_of(Words words, const std::string& threads) {
   const Folder folder;
   for (const std::string& ending : endings_of(words[0])) {
     words.insert(words.end(), {"-o", folder / ("r." + ending)});
+    if (ending == "png") words.insert(words.end(), {"--picture-size", "300,200"});
   }
   words.insert(words.end(), {"--quiet", "--threads", threads, "--report", folder / "r.json"});
   const Outcome outcome = run_dsc(words);

@@ -1,10 +1,9 @@
-// Each stage takes at most what it asks for and at least a third of it. Measured in a process of
-// its own, whose peak is reset where a stage asks.
+// Each stage takes at most what it asks for and at least a third of it.
+#include "tests/support/stage_memory.h"
 #include "libdsc/algorithms/geodesic.h"
 #include "libdsc/algorithms/poisson.h"
 #include "libdsc/algorithms/regularise.h"
 #include "libdsc/calculus/assembly.h"
-#include "libdsc/io/memory_limit.h"
 #include "libdsc/io/mesh_reader.h"
 #include "libdsc/io/read_binary.h"
 #include "libdsc/io/read_labels.h"
@@ -21,58 +20,8 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <map>
-#include <set>
-#include <sstream>
-
-#include <malloc.h>
-
 namespace dsc {
 namespace {
-
-/// The highest resident size since the last reset, in bytes.
-Index peak_bytes() {
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("VmHWM:", 0) == 0) return std::stoll(line.substr(6)) * 1024;
-  }
-  throw std::runtime_error("no VmHWM in /proc/self/status");
-}
-
-void reset_peak() { write_all("/proc/self/clear_refs", "5"); }
-
-/// Notes what every stage asks for and what the process then takes until the next one asks.
-class Recorder final : public MemoryLimit {
- public:
-  struct Stage {
-    std::string name;
-    Index asked = 0, taken = 0;
-  };
-
-  void need(std::string_view stage, Index bytes) const override {
-    if (!stages_.empty()) stages_.back().taken = peak_bytes() - held_;
-    if (!stages_.empty() && stages_.back().name == stage) {  // a part of the same
-      stages_.back().asked += bytes;
-      return;
-    }
-    (void)::malloc_trim(0);  // what was freed must not serve again unseen
-    reset_peak();
-    held_ = resident_bytes();
-    stages_.push_back({std::string(stage), bytes, 0});
-  }
-  Index left() const override { return Index{1} << 40; }
-
-  const std::vector<Stage>& finish() {
-    need("end", 0);
-    stages_.pop_back();
-    return stages_;
-  }
-
- private:
-  mutable std::vector<Stage> stages_;
-  mutable Index held_ = 0;
-};
 
 DigitalSurface sphere(double h, BinaryVolume& voxels, const Context& context) {
   voxels = digitize(Sphere(1.), {h, h, h}, context);
@@ -160,7 +109,7 @@ void run_meshes(const std::string& ending, const Context& context) {
   (void)read_mesh(path, context);
 }
 
-const std::map<std::string, std::function<void(const Context&)>> kRuns = {
+const testing::StageRuns kRuns = {
     {"normals", run_normals},
     {"direct", [](const Context& c) { run_distances(0.02, HeatMethod::direct, c); }},
     {"bands", [](const Context& c) { run_distances(0.009, HeatMethod::bands, c); }},
@@ -173,52 +122,14 @@ const std::map<std::string, std::function<void(const Context&)>> kRuns = {
     {"stl", [](const Context& c) { run_meshes(".stl", c); }},
     {"om", [](const Context& c) { run_meshes(".om", c); }}};
 
-/// The process of its own: not a test, but what one starts.
-TEST(StageMemory, DISABLED_Child) {
-  const char* run = std::getenv("DSC_STAGE_RUN");
-  ASSERT_NE(run, nullptr);
-  Recorder recorder;
-  kRuns.at(run)({1, nullptr, &recorder});
-  std::ofstream out(std::getenv("DSC_STAGE_OUTPUT"));
-  for (const auto& stage : recorder.finish()) {
-    out << stage.asked << ' ' << stage.taken << ' ' << stage.name << '\n';
-  }
-}
+TEST(StageMemory, DISABLED_Child) { testing::record_stages(kRuns); }
 
 TEST(StageMemory, IsAtMostWhatIsAskedForAndAtLeastAThird) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
-  constexpr Index kSlack = Index{3} << 20;  // what allocators and the system take in pages
-  const TemporaryFolder folder;
-  std::set<std::string> compared;
-  for (const auto& [name, run] : kRuns) {
-    const std::string output = folder / name;
-    const std::string command = "DSC_STAGE_RUN=" + name + " DSC_STAGE_OUTPUT='" + output +
-                                "' '" DSC_TEST_PROGRAM
-                                "' --gtest_also_run_disabled_tests "
-                                "--gtest_filter=StageMemory.DISABLED_Child > '" +
-                                folder / "log" + "' 2>&1";
-    ASSERT_EQ(std::system(command.c_str()), 0) << name << "\n" << read_all(folder / "log");
-    std::istringstream lines(read_all(output));
-    Index asked = 0, taken = 0;
-    std::string stage;
-    while (lines >> asked >> taken && std::getline(lines >> std::ws, stage)) {
-      if (stage == "between") continue;
-      SCOPED_TRACE(name + ": " + stage + ", asked " + bytes_text(asked) + ", taken " +
-                   bytes_text(taken));
-      RecordProperty(name + " " + stage, bytes_text(asked) + " " + bytes_text(taken));
-      if (std::getenv("DSC_STAGE_PRINT") != nullptr) {
-        std::printf("%-14s %-20s asked %10s taken %10s  %.2f\n", name.c_str(), stage.c_str(),
-                    bytes_text(asked).c_str(), bytes_text(taken).c_str(),
-                    static_cast<double>(taken) / static_cast<double>(asked));
-      }
-      EXPECT_LE(taken, asked + kSlack);
-      if (asked < 2 * kSlack) continue;
-      EXPECT_GE(3 * taken, asked);
-      compared.insert(stage);
-    }
-  }
+  const auto compared =
+      testing::expect_stages_within(kRuns, DSC_TEST_PROGRAM, "StageMemory.DISABLED_Child");
   for (const char* stage :
        {"read", "digitize", "compare labels", "scan", "extract", "link", "normals", "curvature",
         "laplacian pattern", "laplacian", "order unknowns", "factorize", "set up multigrid", "heat",

@@ -53,11 +53,17 @@ TEST(PackedIntegers, OfALatticeTakeLittleRoom) {
 
 TEST(Deflated, StreamsOfAnySizeComeBack) {
   std::mt19937 random(3);
-  for (const std::size_t n : {0U, 1U, 65535U, 65536U, 1000000U}) {
+  for (const std::size_t n : {0U, 1U, 65535U, 65536U, 1U << 20, 3000001U}) {
     std::string bytes(n, '\0');
     for (char& byte : bytes) byte = static_cast<char>(random());
     EXPECT_EQ(test::inflated(detail::deflated(bytes)), bytes);
   }
+}
+
+TEST(Deflated, IsCancelledAlongTheWay) {
+  Monitor monitor;
+  monitor.cancel();
+  EXPECT_THROW((void)detail::deflated(std::string(5000000, 'a'), {1, &monitor}), Cancelled);
 }
 
 TEST(PackedIntegers, TheDecoderOfThePageReadsThem) {
