@@ -33,8 +33,7 @@ bool wait_for_temporary(const Folder& folder, int child) {
   while (true) {
     const Words names = folder.names();
     if (std::any_of(names.begin(), names.end(), is_temporary)) return true;
-    const std::string status = read_file("/proc/" + std::to_string(child) + "/stat");
-    if (status.substr(status.rfind(')') + 2, 1) == "Z") return false;
+    if (has_ended(child)) return false;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
 }

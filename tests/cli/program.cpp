@@ -1,6 +1,7 @@
 #include "tests/cli/program.h"
 
 #include "libdsc/page/page.h"
+#include "tests/support/long_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +123,15 @@ nlohmann::json read_json(const std::string& path) { return nlohmann::json::parse
 
 void write_file(const std::string& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
+}
+
+bool has_ended(int child) {
+  const std::string status = read_file("/proc/" + std::to_string(child) + "/stat");
+  return status.substr(status.rfind(')') + 2, 1) == "Z";
+}
+
+std::chrono::milliseconds interrupt_limit() {
+  return std::chrono::milliseconds(testing::usually_or_long(3000, 1000));
 }
 
 nlohmann::json report_of(const Words& arguments) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -33,6 +34,13 @@ struct Outcome {
 Outcome run_dsc(const std::vector<std::string>& arguments,
                 const std::function<void()>& in_child = {},
                 const std::function<void(int)>& meanwhile = {});
+
+/// Whether a child has, and waits to be asked how.
+bool has_ended(int child);
+
+/// How long an interrupted run may take. A second is what is promised; a machine that runs other
+/// tests beside this one may take longer.
+std::chrono::milliseconds interrupt_limit();
 
 /// Expects this exit code, nothing on standard output, and a message that begins with the program's
 /// name and has each of `parts`.
