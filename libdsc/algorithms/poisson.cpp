@@ -41,7 +41,7 @@ PoissonProblem::PoissonProblem(const FlatMesh& mesh, std::span<const VertexId> f
   system.L.resize(0, 0);
   Components classes = kernel_classes(mesh, options.calculus.stabilization);
   if (fixed.empty()) {
-    neumann_.emplace(std::move(A), std::move(classes), options.solver, context, options.factory);
+    neumann_.emplace(take(A), std::move(classes), options.solver, context, options.factory);
     if (options.calculus.stabilization == Stabilization::mercat) {
       filter_.emplace(mesh, options.calculus, context);
     }

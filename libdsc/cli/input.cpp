@@ -108,7 +108,7 @@ Input read_file(Run& run) {
   }
   selection.labels = options.labels;
   std::unique_ptr<VolumeSource> source =
-      options.raw ? open_raw_volume(options.input, *options.raw)
+      options.raw ? open_raw_volume(options.input, *options.raw, run.context)
                   : open_volume(options.input, {options.grid}, run.context);
   if (options.gridstep) {
     source = std::make_unique<RespacedSource>(std::move(source), *options.gridstep);

@@ -31,6 +31,8 @@ double straight_line(const Plane& plane, const Vec3& p, const Vec3& q) {
 template <class Distance>
 Eigen::VectorXd distances(Vec3View points, const Eigen::Matrix3Xd& sources,
                           const Distance& distance, const Context& context) {
+  context.need("check", 3 * 8 * points.size);  // and the errors, and sorted
+  context.begin("check", points.size);
   Eigen::VectorXd result(points.size);
   parallel_for(context, points.size, kAnswerGrain, [&](Index first, Index last) {
     for (Index i = first; i < last; ++i) {
@@ -40,6 +42,7 @@ Eigen::VectorXd distances(Vec3View points, const Eigen::Matrix3Xd& sources,
       }
       result[i] = least;
     }
+    context.advance(last - first);
   });
   return result;
 }
@@ -62,6 +65,8 @@ Vec3 gradient_of(Expression::Evaluator& f, const Vec3& p) {
 template <class MakeValue>
 KnownVectors at_closest_points(const ImplicitShape& shape, Vec3View points, const Context& context,
                                const MakeValue& make_value) {
+  context.need("check", (24 + 1 + 2 * 8) * points.size);  // and the errors, and sorted
+  context.begin("check", points.size);
   KnownVectors result;
   result.vectors = Eigen::Matrix3Xd::Zero(3, points.size);
   result.known.assign(static_cast<std::size_t>(points.size), 0);
@@ -75,6 +80,7 @@ KnownVectors at_closest_points(const ImplicitShape& shape, Vec3View points, cons
       result.vectors.col(i) = value(closest.point, n);
       result.known[static_cast<std::size_t>(i)] = 1;
     }
+    context.advance(last - first);
   });
   return result;
 }

@@ -11,9 +11,13 @@ constexpr Index kCurvatureGrain = 1 << 10;
 /// value(i) for every i, in parallel.
 template <class Value>
 std::vector<Value> collect(Index n, const Context& context, auto&& value) {
+  constexpr Index kErrors = 3 * sizeof(double);  // of one of them, and sorted
+  context.need("check", (static_cast<Index>(sizeof(Value)) + kErrors) * n);
+  context.begin("check", n);
   std::vector<Value> all(static_cast<std::size_t>(n));
   parallel_for(context, n, kCurvatureGrain, [&](Index first, Index last) {
     for (Index i = first; i < last; ++i) all[static_cast<std::size_t>(i)] = value(i);
+    context.advance(last - first);
   });
   return all;
 }

@@ -118,7 +118,7 @@ PolygonMesh read_mesh_input(Run& run) {
   const FlatMesh view = mesh.view();
   {
     const Stopwatch watch(run.report.timings.extract);
-    run.report.surface = count_polygons(view);
+    run.report.surface = count_polygons(view, run.context);
   }
   MeshInputReport report;
   report.name = run.options.input;
@@ -134,7 +134,8 @@ PolygonMesh read_mesh_input(Run& run) {
   return mesh;
 }
 
-Eigen::Matrix3Xd own_normals(const FlatMesh& mesh) {
+Eigen::Matrix3Xd own_normals(const FlatMesh& mesh, const Context& context) {
+  context.need("normals", 24 * mesh.faces());
   Eigen::Matrix3Xd normals(3, mesh.faces());
   for (Index f = 0; f < mesh.faces(); ++f) {
     const auto corners = mesh.face(f);

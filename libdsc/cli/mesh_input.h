@@ -22,7 +22,7 @@ PolygonMesh read_mesh_input(Run& run);
 
 /// The unit normals of the faces themselves, 3 x F: along the vector area. \throws InputError where
 /// a face has no area.
-Eigen::Matrix3Xd own_normals(const FlatMesh& mesh);
+Eigen::Matrix3Xd own_normals(const FlatMesh& mesh, const Context& context);
 
 /// Adds the fields of the file, but those whose names `result` has already.
 void keep_fields(const PolygonMesh& mesh, Result& result, Run& run);

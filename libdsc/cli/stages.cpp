@@ -95,7 +95,7 @@ void estimate_normals(Scene& scene, Run& run) {
     if (scene.polygons->normals.cols() > 0) {
       run.warn("the normals of '" + run.options.input + "' were replaced");
     }
-    scene.polygons->normals = own_normals(scene.polygons->view());
+    scene.polygons->normals = own_normals(scene.polygons->view(), run.context);
     run.report.normals = NormalsReport{name_of(Estimator::trivial), 0., 0, 0, {}};
     return;
   }
@@ -176,10 +176,12 @@ CalculusOptions calculus_options(const Run& run) {
   return options;
 }
 
-Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options) {
+Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options,
+                          const Context& context) {
   Index count = 0;
   if (!mesh.has_normals()) return count;
-  const Eigen::Matrix3Xd normals = mesh.is_digital() ? Eigen::Matrix3Xd() : own_normals(mesh);
+  const Eigen::Matrix3Xd normals =
+      mesh.is_digital() ? Eigen::Matrix3Xd() : own_normals(mesh, context);
   for (Index f = 0; f < mesh.faces(); ++f) {
     const Vec3 own = mesh.is_digital() ? mesh.surfels[static_cast<std::size_t>(f)].normal()
                                        : Vec3(normals.col(f));

@@ -52,7 +52,8 @@ FlatMesh flat_mesh(const Scene& scene, const Run& run);
 CalculusOptions calculus_options(const Run& run);
 
 /// The faces whose normal the calculus tilts back (embedding.h), where no operator tells.
-Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options);
+Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options,
+                          const Context& context);
 
 /// The same mesh for the naive calculus, where the options ask for its result too (--compare).
 /// \throws UsageError where `mesh` is naive already: a file without normals.

@@ -4,6 +4,7 @@
 #include "libdsc/io/standard_stream.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,13 +18,26 @@ namespace dsc {
 
 namespace {
 
-std::string all_of_standard_input() {
+/// Whether there is something to read, or the end, within a tenth of a second.
+bool standard_input_is_ready() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return ::poll(&input, 1, 100) != 0;
+}
+
+std::string all_of_standard_input(const Context& context) {
   std::string bytes;
   char buffer[1 << 16];
   for (;;) {
+    context.check();
+    if (!standard_input_is_ready()) continue;
     const ssize_t count = ::read(STDIN_FILENO, buffer, sizeof buffer);
     if (count == 0) return bytes;
     if (count > 0) {
+      const std::size_t size = bytes.size() + static_cast<std::size_t>(count);
+      if (size > bytes.capacity()) {  // it grows to twice its size beside itself
+        context.need("read", static_cast<Index>(2 * size));
+        bytes.reserve(2 * size);
+      }
       bytes.append(buffer, static_cast<std::size_t>(count));
     } else if (errno != EINTR) {
       throw InputError("cannot read standard input: " + std::system_category().message(errno));
@@ -33,9 +47,9 @@ std::string all_of_standard_input() {
 
 }  // namespace
 
-InputFile::InputFile(const std::string& path) : path_(path) {
+InputFile::InputFile(const std::string& path, const Context& context) : path_(path) {
   if (detail::is_standard_stream(path)) {
-    owned_ = std::make_shared<const std::string>(all_of_standard_input());
+    owned_ = std::make_shared<const std::string>(all_of_standard_input(context));
     bytes_ = *owned_;
     size_ = static_cast<Index>(bytes_.size());
     return;

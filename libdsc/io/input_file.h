@@ -4,6 +4,7 @@
 /// byte.
 #pragma once
 
+#include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 
 #include <memory>
@@ -15,8 +16,9 @@ namespace dsc {
 class InputFile {
  public:
   /// Of `FORMAT:-` (standard_stream.h) all of standard input is read into memory at once.
-  /// \throws InputError where `path` cannot be opened or is no regular file.
-  explicit InputFile(const std::string& path);
+  /// \throws InputError where `path` cannot be opened or is no regular file; LimitError, Cancelled
+  /// on the way through standard input.
+  explicit InputFile(const std::string& path, const Context& context = {});
   /// The same over `bytes`, which must outlive it; `name` stands for the path.
   InputFile(std::string name, std::string_view bytes);
   InputFile(InputFile&& other) noexcept;
@@ -40,7 +42,7 @@ class InputFile {
 
  private:
   std::string path_;
-  int file_ = -1;           ///< -1: the bytes are in memory
+  int file_ = -1;                             ///< -1: the bytes are in memory
   std::shared_ptr<const std::string> owned_;  ///< of standard input
   std::string_view bytes_;                    ///< in memory
   Index size_ = 0;

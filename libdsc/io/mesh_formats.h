@@ -3,6 +3,7 @@
 /// The reader of each mesh format, and what they share. Private: call read_mesh().
 #pragma once
 
+#include "libdsc/base/context.h"
 #include "libdsc/io/input_file.h"
 #include "libdsc/io/polygon_mesh.h"
 
@@ -31,10 +32,22 @@ std::vector<std::string> vector_parts(const std::string& name);
 /// Packed coordinates as columns.
 Eigen::Matrix3Xd columns_of(const std::vector<double>& xyz);
 
-/// "1 face", "2 faces".
 /// What the offsets and corners of faces take while they grow, most of them triangles or quads.
 inline Index faces_bytes(Index faces) { return (8 + 36) * faces; }
 
+/// Asks for memory before `values` grow to twice their size.
+template <class T>
+void need_room(const std::vector<T>& values, const Context& context) {
+  if (values.size() < values.capacity()) return;
+  context.need("read", 2 * static_cast<Index>(values.size() * sizeof(T)));
+}
+
+/// The same for corners of faces that have more than faces_bytes() is made for.
+inline void need_corners(const PolygonMesh& mesh, const Context& context) {
+  if (std::ssize(mesh.corners) > 4 * std::ssize(mesh.offsets)) need_room(mesh.corners, context);
+}
+
+/// "1 face", "2 faces".
 std::string counted(Index n, const std::string& singular, const std::string& plural);
 
 }  // namespace dsc::detail

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace dsc {
@@ -50,13 +51,21 @@ std::string kind_of(const MeshField& field) {
 /// name of a vector differs from those of the other fields too, whatever its parts are called.
 void make_names_plain(PolygonMesh& mesh) {
   using Names = std::set<std::pair<FieldOn, std::string>>;
+  std::map<std::pair<FieldOn, std::string>, int> numbers;
   const auto plain = [&](const MeshField& field, const std::string& given, Names& taken) {
     std::string name = given.empty() ? "_" : given;
     for (char& c : name) {
       if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }
     if (name == "x" || name == "y" || name == "z") name += "_";
-    while (!taken.insert({field.on, name}).second) name += "_";
+    if (!taken.insert({field.on, name}).second) {
+      name += "_";
+      // Numbered from the second on, which stays fast for any number of equal names.
+      int& number = numbers[{field.on, name}];
+      std::string next = name;
+      while (!taken.insert({field.on, next}).second) next = name + std::to_string(++number + 1);
+      name = next;
+    }
     if (name != given) {
       mesh.remarks.push_back("the " + kind_of(field) + " property '" + given + "' is called " +
                              name + " here");
@@ -137,7 +146,7 @@ bool is_mesh_path(const std::string& path) { return format_of(path) != nullptr; 
 
 PolygonMesh read_mesh(const std::string& path, const Context& context) {
   (void)known_format_of(path);  // before the file is opened
-  InputFile file(path);
+  InputFile file(path, context);
   return detail::read_mesh(file, context);
 }
 

@@ -67,16 +67,11 @@ class ObjReader {
     }
   }
 
-  /// The format has no counts, so that memory is asked for as vectors grow to twice their size.
-  template <class T>
-  void need_room(const std::vector<T>& values) const {
-    if (values.size() + 3 <= values.capacity()) return;
-    context_.need("read", 2 * static_cast<Index>(values.size() * sizeof(T)));
-  }
-
   void vertex() {
-    need_room(xyz_);
-    for (int k = 0; k < 3; ++k) xyz_.push_back(lines_.finite("a coordinate"));
+    for (int k = 0; k < 3; ++k) {
+      need_room(xyz_, context_);  // the format has no counts
+      xyz_.push_back(lines_.finite("a coordinate"));
+    }
     // Beyond: a weight, or a colour of three or four parts.
     std::array<double, 5> beyond{};
     std::size_t count = 0;
@@ -93,8 +88,7 @@ class ObjReader {
   }
 
   void face() {
-    need_room(mesh_.corners);
-    need_room(mesh_.offsets);
+    need_room(mesh_.offsets, context_);
     std::size_t count = 0;
     const Index vertices = std::ssize(xyz_) / 3;
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word(), ++count) {
@@ -107,6 +101,7 @@ class ObjReader {
                     counted(vertices, "vertex", "vertices") +
                     " before this line, which are counted from 1");
       }
+      need_room(mesh_.corners, context_);
       mesh_.corners.push_back(static_cast<VertexId>(checked_id(v, "vertices")));
     }
     if (count < 3) {

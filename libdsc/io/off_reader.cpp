@@ -65,7 +65,7 @@ void read_vertices(TextLines& lines, Index count, const OffKind& kind, PolygonMe
   }
 }
 
-void read_faces(TextLines& lines, Index count, PolygonMesh& mesh) {
+void read_faces(TextLines& lines, Index count, PolygonMesh& mesh, const Context& context) {
   const Index vertices = mesh.positions.cols();
   Index coloured = 0;
   mesh.offsets.push_back(0);
@@ -82,6 +82,7 @@ void read_faces(TextLines& lines, Index count, PolygonMesh& mesh) {
         lines.fail("corner " + std::to_string(v) + " is not one of the " +
                    counted(vertices, "vertex", "vertices") + ", which are counted from 0");
       }
+      need_corners(mesh, context);
       mesh.corners.push_back(static_cast<VertexId>(v));
     }
     mesh.offsets.push_back(std::ssize(mesh.corners));
@@ -117,7 +118,7 @@ PolygonMesh read_off(InputFile& file, const Context& context) {
   checked_id(vertices, "vertices");
   context.need("read", (kind.normals ? 60 : 24) * vertices + faces_bytes(faces));
   read_vertices(lines, vertices, kind, mesh);
-  read_faces(lines, faces, mesh);
+  read_faces(lines, faces, mesh, context);
   if (lines.next_with_content()) {
     lines.fail("the file goes on after its last face; are the counts right?");
   }

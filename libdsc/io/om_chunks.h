@@ -7,6 +7,7 @@
 /// size, then values. The last chunk is a sentinel. Little-endian.
 #pragma once
 
+#include "libdsc/base/context.h"
 #include "libdsc/base/types.h"
 #include "libdsc/io/polygon_mesh.h"
 
@@ -47,6 +48,6 @@ struct OmBytes {
 OmFile find_om_chunks(const OmBytes& file);
 
 /// The mesh, read by OpenMesh. \throws InputError.
-PolygonMesh parse_om(const OmBytes& file);
+PolygonMesh parse_om(const OmBytes& file, const Context& context = {});
 
 }  // namespace dsc::detail

@@ -166,23 +166,29 @@ void append_values(std::vector<double>& out, const T& value) {
 
 /// The property of one chunk as a field.
 void add_field(const SurfaceMesh& mesh, const OmChunk& chunk, const std::vector<int>& source,
-               PolygonMesh& result) {
+               PolygonMesh& result, const Context& context) {
   if (chunk.name == property::kVertexId && chunk.entity == OmEntity::vertex) return;
   with_kept_type(chunk.type, [&](auto kept) {
     using T = typename decltype(kept)::Type;
     MeshField field;
     field.name = chunk.name == property::kNormal ? "normal" : chunk.name;
     field.parts = kept.parts == 3 ? vector_parts(field.name) : std::vector{field.name};
+    const auto room_for = [&](std::size_t count) {
+      context.need("read", static_cast<Index>(8 * count * field.parts.size()));
+      field.values.reserve(count * field.parts.size());
+    };
     if (chunk.entity == OmEntity::vertex) {
       field.on = FieldOn::vertex;
       OpenMesh::VPropHandleT<T> handle;
       if (!mesh.get_property_handle(handle, chunk.name)) return;
+      room_for(source.size());
       for (const int v : source)
         append_values(field.values, mesh.property(handle, VertexHandle(v)));
     } else {
       field.on = FieldOn::face;
       OpenMesh::FPropHandleT<T> handle;
       if (!mesh.get_property_handle(handle, chunk.name)) return;
+      room_for(mesh.n_faces());
       for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
         append_values(field.values, mesh.property(handle, FaceHandle(f)));
       }
@@ -193,7 +199,7 @@ void add_field(const SurfaceMesh& mesh, const OmChunk& chunk, const std::vector<
 
 }  // namespace
 
-PolygonMesh parse_om(const OmBytes& file) {
+PolygonMesh parse_om(const OmBytes& file, const Context& context) {
   const OmFile om = find_om_chunks(file);
   PolygonMesh result;
   for (const OmChunk& chunk : om.chunks) {
@@ -230,7 +236,8 @@ PolygonMesh parse_om(const OmBytes& file) {
   }
   for (const OmChunk& chunk : om.chunks) {
     if (chunk.kind == OmKind::custom && is_kept(chunk, om)) {
-      add_field(mesh, chunk, source, result);
+      context.check();
+      add_field(mesh, chunk, source, result, context);
     }
   }
   return result;
@@ -243,7 +250,7 @@ PolygonMesh read_om(InputFile& file, const Context& context) {
   std::string bytes(static_cast<std::size_t>(file.size()), '\0');
   file.read(bytes.data(), file.size());
   context.advance(file.size());
-  return parse_om({bytes, file.path()});
+  return parse_om({bytes, file.path()}, context);
 }
 
 }  // namespace dsc::detail

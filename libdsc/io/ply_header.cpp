@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace dsc::detail {
@@ -24,6 +26,9 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{
      {"float32", PlyType::float32},
      {"double", PlyType::float64},
      {"float64", PlyType::float64}}};
+
+/// Far more than any program writes; each is looked at for each vertex or face.
+constexpr int kMostProperties = 10000;
 
 PlyType read_type(TextLines& lines) {
   const std::string word(lines.word().substr(0, 40));
@@ -57,15 +62,13 @@ PlyEncoding read_encoding(TextLines& lines) {
   lines.fail("the format '" + word + "' is unknown");
 }
 
-PlyElement read_element(TextLines& lines, const PlyHeader& header) {
+PlyElement read_element(TextLines& lines, std::set<std::string>& names) {
   PlyElement element;
   element.name = lines.word();
   element.count = lines.integer("the number of elements");
   element.line = lines.number();
   if (element.count < 0) lines.fail("the number of elements is negative");
-  for (const PlyElement& other : header.elements) {
-    if (other.name == element.name) lines.fail("the element is declared twice");
-  }
+  if (!names.insert(element.name).second) lines.fail("the element is declared twice");
   return element;
 }
 
@@ -84,6 +87,8 @@ PlyHeader read_ply_header(TextLines& lines) {
     lines.fail("the first line is not 'ply'; is this a PLY file?");
   }
   bool has_format = false;
+  std::set<std::string> elements, properties;  // their names, the latter of the latest element
+  int declared = 0;
   for (;;) {
     if (!lines.next()) lines.fail("the header has no end, a line end_header; it is truncated");
     const std::string key(lines.word().substr(0, 40));
@@ -93,16 +98,19 @@ PlyHeader read_ply_header(TextLines& lines) {
       header.encoding = read_encoding(lines);
       has_format = true;
     } else if (key == "element") {
-      header.elements.push_back(read_element(lines, header));
+      header.elements.push_back(read_element(lines, elements));
+      properties.clear();
     } else if (key == "property") {
       if (header.elements.empty()) lines.fail("a property comes before the first element");
       PlyProperty property = read_property(lines);
-      auto& properties = header.elements.back().properties;
-      const bool twice = std::any_of(properties.begin(), properties.end(), [&](const auto& other) {
-        return other.name == property.name;
-      });
-      if (twice) lines.fail("the property " + property.name + " is declared twice");
-      properties.push_back(std::move(property));
+      if (!properties.insert(property.name).second) {
+        lines.fail("the property " + property.name + " is declared twice");
+      }
+      if (++declared > kMostProperties) {
+        lines.fail("more than " + std::to_string(kMostProperties) +
+                   " properties; leave out what is not needed");
+      }
+      header.elements.back().properties.push_back(std::move(property));
     } else {
       lines.fail("'" + key + "' is no line of a PLY header");
     }

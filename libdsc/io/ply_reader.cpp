@@ -213,6 +213,7 @@ class PlyReader {
                       counted(mesh_.positions.cols(), "vertex", "vertices") +
                       ", which are counted from 0");
       }
+      need_corners(mesh_, context_);
       mesh_.corners.push_back(static_cast<VertexId>(v));
     }
     mesh_.offsets.push_back(std::ssize(mesh_.corners));

@@ -58,8 +58,9 @@ std::unique_ptr<VolumeSource> open_raw(InputFile file, const RawLayout& layout) 
 
 }  // namespace detail
 
-std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout) {
-  return detail::open_raw(InputFile(path), layout);
+std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout,
+                                              const Context& context) {
+  return detail::open_raw(InputFile(path, context), layout);
 }
 
 }  // namespace dsc

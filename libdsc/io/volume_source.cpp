@@ -104,11 +104,11 @@ std::unique_ptr<VolumeSource> open_volume(const std::string& path, const VolumeO
     throw UsageError("'" + path + "': the grid '" + detail::printable(*options.grid) +
                      "' was asked for, and only .vdb files hold grids by name");
   }
-  if (extension == ".vol") return detail::open_vol(InputFile(path), false);
-  if (extension == ".longvol") return detail::open_vol(InputFile(path), true);
-  if (extension == ".npy") return detail::open_npy(InputFile(path));
-  if (extension == ".vox") return detail::open_vox(InputFile(path));
-  if (extension == ".vti") return detail::open_vti(InputFile(path));
+  if (extension == ".vol") return detail::open_vol(InputFile(path, context), false);
+  if (extension == ".longvol") return detail::open_vol(InputFile(path, context), true);
+  if (extension == ".npy") return detail::open_npy(InputFile(path, context));
+  if (extension == ".vox") return detail::open_vox(InputFile(path, context));
+  if (extension == ".vti") return detail::open_vti(InputFile(path, context));
   if (extension == ".raw") {
     throw UsageError("'" + path +
                      "': a raw file does not say how its values lie; give its size and type");

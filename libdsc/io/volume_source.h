@@ -144,6 +144,7 @@ ValueType value_type(const std::string& name);
 
 /// A raw file. \throws InputError where its length is not exactly that of the layout, with both
 /// numbers; UsageError where a size is not positive.
-std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout);
+std::unique_ptr<VolumeSource> open_raw_volume(const std::string& path, const RawLayout& layout,
+                                              const Context& context = {});
 
 }  // namespace dsc

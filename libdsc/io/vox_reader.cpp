@@ -37,16 +37,12 @@ class VoxSource final : public VolumeSource {
   bool x_fastest() const override { return true; }
 
   void read(const std::function<void(const Slab&)>& take, const Context& context) override {
-    const Index per_slice = grid_.size[0] * grid_.size[1];
-    std::vector<std::uint8_t> colours;
-    auto next = voxels_.begin();
+    const std::vector<std::uint8_t> colours = read_colours(context);
+    const std::span<const std::uint8_t> all(colours);
+    const auto per_slice = static_cast<std::size_t>(grid_.size[0] * grid_.size[1]);
     for (Index z = 0; z < grid_.size[2]; ++z) {
       context.check();
-      colours.assign(static_cast<std::size_t>(per_slice), 0);
-      for (; next != voxels_.end() && next->place < (z + 1) * per_slice; ++next) {
-        colours[static_cast<std::size_t>(next->place - z * per_slice)] = next->colour;
-      }
-      take(Slab{z, z + 1, std::span<const std::uint8_t>(colours)});
+      take(Slab{z, z + 1, all.subspan(static_cast<std::size_t>(z) * per_slice, per_slice)});
       context.advance(1);
     }
   }
@@ -116,36 +112,38 @@ class VoxSource final : public VolumeSource {
     }
     if (4 * count > file_.remaining()) file_.fail(c.at, "XYZI goes on after the end of the file");
     has_voxels_ = true;
-    std::vector<unsigned char> list(static_cast<std::size_t>(4 * count));
-    file_.read(list.data(), 4 * count);
-    for (Index i = 0; i < count; ++i) {
-      const unsigned char* v = &list[static_cast<std::size_t>(4 * i)];
-      const Index at = c.at + 16 + 4 * i;
-      if (!grid_.contains(v[0], v[1], v[2])) file_.fail(at, "a voxel outside of SIZE");
-      if (v[3] == 0) file_.fail(at, "a voxel of colour 0, which stands for none");
-      voxels_.push_back({v[0] + grid_.size[0] * (v[1] + grid_.size[1] * v[2]), at, v[3]});
-    }
-    std::sort(voxels_.begin(), voxels_.end(), [](const Voxel& a, const Voxel& b) {
-      return a.place != b.place ? a.place < b.place : a.at < b.at;
-    });
-    const auto twice =
-        std::adjacent_find(voxels_.begin(), voxels_.end(),
-                           [](const Voxel& a, const Voxel& b) { return a.place == b.place; });
-    if (twice != voxels_.end()) file_.fail(std::next(twice)->at, "a voxel that was there before");
+    list_ = file_.position();
+    count_ = count;
   }
 
-  /// One that is there; they are kept in the order of the grid, whose size may be far beyond
-  /// theirs.
-  struct Voxel {
-    Index place = 0;  ///< x + X (y + Y z)
-    Index at = 0;     ///< byte of the file
-    std::uint8_t colour = 0;
-  };
+  /// The colour of each voxel of the grid, at most 16 MB; 0 where none is.
+  std::vector<std::uint8_t> read_colours(const Context& context) {
+    context.need("read", grid_.voxels());
+    std::vector<std::uint8_t> colours(static_cast<std::size_t>(grid_.voxels()), 0);
+    constexpr Index kAtOnce = 1 << 16;
+    std::vector<unsigned char> list(static_cast<std::size_t>(4 * std::min(count_, kAtOnce)));
+    file_.seek(list_);
+    for (Index i = 0; i < count_; ++i) {
+      const Index at = list_ + 4 * i;
+      if (i % kAtOnce == 0) {
+        context.check();
+        file_.read(list.data(), 4 * std::min(count_ - i, kAtOnce));
+      }
+      const unsigned char* v = &list[static_cast<std::size_t>(4 * (i % kAtOnce))];
+      if (!grid_.contains(v[0], v[1], v[2])) file_.fail(at, "a voxel outside of SIZE");
+      if (v[3] == 0) file_.fail(at, "a voxel of colour 0, which stands for none");
+      const Index place = v[0] + grid_.size[0] * (v[1] + grid_.size[1] * v[2]);
+      std::uint8_t& colour = colours[static_cast<std::size_t>(place)];
+      if (colour != 0) file_.fail(at, "a voxel that was there before");
+      colour = v[3];
+    }
+    return colours;
+  }
 
   InputFile file_;
   Grid grid_;
   Index models_ = 0;
-  std::vector<Voxel> voxels_;
+  Index list_ = 0, count_ = 0;  ///< where the voxels lie in the file, four bytes each
   bool has_voxels_ = false;
 };
 

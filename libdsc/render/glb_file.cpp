@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace dsc::render {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 /// The binary chunk, and the JSON of the views and accessors into it.
 class Chunk {
  public:
+  explicit Chunk(Index bytes) { bytes_.reserve(static_cast<std::size_t>(bytes)); }
   /// Adds an array of `count` elements; `type` is one of glTF's numbers of a component, `target`
   /// its use (34962 of vertices, 34963 of indices). \return the number of the accessor.
   template <class T>
@@ -54,10 +56,16 @@ struct Points {
   std::vector<std::uint32_t> triangles;
 };
 
+Index triangles_of(const FlatMesh& mesh) { return mesh.corner_count() - 2 * mesh.faces(); }
+
 Points points_of(const FlatMesh& mesh, bool per_corner) {
   Points points;
   points.per_corner = per_corner;
-  if (!per_corner) {
+  points.triangles.reserve(static_cast<std::size_t>(3 * triangles_of(mesh)));
+  if (per_corner) {
+    points.vertex.reserve(mesh.corners.size());
+    points.face.reserve(mesh.corners.size());
+  } else {
     points.vertex.resize(static_cast<std::size_t>(mesh.vertices()));
     for (std::size_t v = 0; v < points.vertex.size(); ++v) {
       points.vertex[v] = static_cast<VertexId>(v);
@@ -160,21 +168,32 @@ std::vector<float> values_at(const Field& field, const Points& points) {
   return values;
 }
 
-void check(const Result& result) {
+void check(const std::string& path, const Result& result, const Context& context) {
+  check_result(result, context);
   const FlatMesh& mesh = result.mesh;
-  if (mesh.faces() == 0) throw InputError(".glb: there is no face to write");
+  if (mesh.faces() == 0) throw InputError("'" + path + "': there is no face to write");
   for (Index v = 0; v < mesh.vertices(); ++v) {
     if (!(mesh.positions[v].cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max())) {
-      throw InputError(".glb: the position of vertex " + std::to_string(v) +
-                       " is not finite or beyond floats");
+      throw InputError("'" + path + "': the position of vertex " + std::to_string(v) +
+                       " is beyond floats");
     }
   }
-  for (const Field& field : result.fields) {
-    if (std::any_of(field.values.begin(), field.values.end(),
-                    [](double value) { return std::isnan(value); })) {
-      throw InputError(".glb: field " + field.name + " is not a number somewhere");
-    }
-  }
+}
+
+/// Whether a field of vertices is kept as values.
+bool is_kept(const Field& field) {
+  return field.parts.size() == 1 && field.on == FieldOn::vertex && !has_infinite(field);
+}
+
+/// What the names of attributes of one's own look like: _HEAT of heat, _HEAT_2 of Heat beside it.
+std::string attribute_name(const std::string& field, std::set<std::string>& taken) {
+  std::string name = "_" + field;
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  const std::string first = name;
+  for (int k = 2; !taken.insert(name).second; ++k) name = first + "_" + std::to_string(k);
+  return name;
 }
 
 void append_word(std::string& out, std::uint32_t word) {
@@ -187,7 +206,7 @@ bool is_glb_path(const std::string& path) { return extension_of(path) == ".glb";
 
 std::vector<std::string> write_glb(const std::string& path, const Result& result,
                                    const Context& context) {
-  check(result);
+  check(path, result, context);
   context.begin("write", 4);
   const FlatMesh& mesh = result.mesh;
   const auto shown = std::find_if(result.fields.begin(), result.fields.end(),
@@ -195,7 +214,12 @@ std::vector<std::string> write_glb(const std::string& path, const Result& result
   const bool scalar = shown != result.fields.end();
   const bool per_corner = !scalar || shown->on == FieldOn::face;
   const Index count = per_corner ? mesh.corner_count() : mesh.vertices();
-  context.need("write", 90 * count + 24 * mesh.corner_count());
+  const auto kept = std::count_if(result.fields.begin(), result.fields.end(), is_kept);
+  const Index chunk_bytes =
+      (24 + (scalar ? 8 : 0) + 4 * kept) * count + 12 * triangles_of(mesh) + 4 * (kept + 4);
+  // Beside it the points and triangles, the positions, and normals on their way.
+  context.need("write", chunk_bytes + (per_corner ? 8 : 4) * count + 12 * triangles_of(mesh) +
+                            (12 + 36) * count);
   const Points points = points_of(mesh, per_corner);
   context.advance(1);
   context.check();
@@ -211,7 +235,7 @@ std::vector<std::string> write_glb(const std::string& path, const Result& result
     append(positions, p);
     bounds.extend(p.cast<float>());
   }
-  Chunk chunk;
+  Chunk chunk(chunk_bytes);
   const auto three = [](const auto& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); };
   std::string attributes =
       fmt::format("\"POSITION\":{}",
@@ -227,16 +251,13 @@ std::vector<std::string> write_glb(const std::string& path, const Result& result
                               chunk.add(colours_of(*shown, points), "VEC4", 4, kUnsignedShort,
                                         kVertices, ",\"normalized\":true"));
   }
+  std::set<std::string> names;
   for (const Field& field : result.fields) {
-    const bool kept =
-        field.parts.size() == 1 && field.on == FieldOn::vertex && !has_infinite(field);
-    if (kept) {
-      std::string name = "_" + field.name;
-      std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-      });
-      attributes += fmt::format(
-          ",\"{}\":{}", name, chunk.add(values_at(field, points), "SCALAR", 1, kFloat, kVertices));
+    context.check();
+    if (is_kept(field)) {
+      attributes +=
+          fmt::format(",\"{}\":{}", attribute_name(field.name, names),
+                      chunk.add(values_at(field, points), "SCALAR", 1, kFloat, kVertices));
     } else if (!scalar || &field != &*shown) {
       left_out.push_back(field.name);
     }

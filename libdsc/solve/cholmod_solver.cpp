@@ -1,6 +1,7 @@
 #include "libdsc/solve/cholmod_solver.h"
 
 #include "libdsc/base/error.h"
+#include "libdsc/solve/counted_ldlt.h"
 #include "libdsc/solve/fill_order.h"
 
 #include <cblas.h>
@@ -86,8 +87,15 @@ Eigen::VectorXd diagonal_of(const cholmod_factor& L) {
   return diagonal;
 }
 
-Factor factorize(const SparseMatrix& A) {
+/// What the values and rows of an analysed factor are going to take, and the largest block of work.
+Index bytes_of(const cholmod_factor& L, Common& common) {
+  if (L.is_super == 0) return static_cast<Index>(12 * common.get()->lnz);
+  return static_cast<Index>(8 * (L.xsize + L.maxcsize) + 4 * L.ssize);
+}
+
+Factor factorize(const SparseMatrix& A, const Context& context) {
   const Index n = A.rows();
+  context.need("order unknowns", ordering_bytes(A, FillOrder::nested_dissection));
   const FillPermutation order = fill_order(A, FillOrder::nested_dissection);
   cholmod_sparse view{};  // CHOLMOD reads through pointers to non-const, and writes nothing
   view.nrow = view.ncol = static_cast<std::size_t>(n);
@@ -105,6 +113,8 @@ Factor factorize(const SparseMatrix& A) {
   Factor factor(
       cholmod_analyze_p(&view, const_cast<int*>(order.indices().data()), nullptr, 0, common.get()));
   check_status(common, n);
+  context.check();
+  context.need("factorize", bytes_of(*factor, common));
   cholmod_factorize(&view, factor.get(), common.get());
   if (common.status() == CHOLMOD_NOT_POSDEF) fail_singular(n);
   check_status(common, n);
@@ -125,7 +135,7 @@ class CholmodSolver final : public SpdSolver {
       : SpdSolver(std::move(A), options) {
     openblas_set_num_threads(1);
     context.check();
-    if (size() > 0) factor_ = factorize(matrix());
+    if (size() > 0) factor_ = factorize(matrix(), context);
     context.check();
   }
 

@@ -110,7 +110,7 @@ std::unique_ptr<SpdSolver> make_spd_solver(SparseMatrix A, const SolverOptions& 
                                            const Context& context = {});
 
 /// What algorithms take where they need a solver: make_spd_solver, or make_cholmod_solver of the
-/// target dsc::cholmod, or the caller's own.
+/// target dsc::cholmod, or the caller's own; one that takes `SparseMatrix&&` is handed no copy.
 using SpdSolverFactory = std::function<std::unique_ptr<SpdSolver>(
     SparseMatrix A, const SolverOptions& options, const Context& context)>;
 

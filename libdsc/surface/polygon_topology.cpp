@@ -1,9 +1,11 @@
 #include "libdsc/surface/polygon_topology.h"
 
 #include "libdsc/base/checked.h"
+#include "libdsc/base/parallel.h"
 #include "libdsc/base/union_find.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace dsc {
@@ -25,8 +27,8 @@ void for_each_side(const FlatMesh& mesh, Use&& use) {
   }
 }
 
-/// The sides of edges, edge after edge.
-std::vector<Side> sorted_sides(const FlatMesh& mesh) {
+/// The sides of edges, edge after edge: cast to their lower vertex, then sorted, the few of each.
+std::vector<Side> sorted_sides(const FlatMesh& mesh, const Context& context) {
   checked_id(mesh.corner_count(), "face corners");
   for (Index c = 0; c < mesh.corner_count(); ++c) {
     const VertexId v = mesh.corners[static_cast<std::size_t>(c)];
@@ -35,16 +37,32 @@ std::vector<Side> sorted_sides(const FlatMesh& mesh) {
                        std::to_string(mesh.vertices()) + " vertices");
     }
   }
-  std::vector<Side> sides;
-  sides.reserve(mesh.corners.size());
-  for_each_side(mesh, [&](Index c, Index next) {
-    const VertexId from = mesh.corners[static_cast<std::size_t>(c)];
-    const VertexId to = mesh.corners[static_cast<std::size_t>(next)];
-    if (from == to) return;
-    sides.push_back({std::min(from, to), std::max(from, to), static_cast<VertexId>(c), from < to});
+  const auto for_each_edge_side = [&](auto&& use) {
+    for_each_side(mesh, [&](Index c, Index next) {
+      const VertexId from = mesh.corners[static_cast<std::size_t>(c)];
+      const VertexId to = mesh.corners[static_cast<std::size_t>(next)];
+      if (from != to) {
+        use(Side{std::min(from, to), std::max(from, to), static_cast<VertexId>(c), from < to});
+      }
+    });
+  };
+  std::vector<std::ptrdiff_t> place(static_cast<std::size_t>(mesh.vertices()) + 1, 0);
+  for_each_edge_side([&](const Side& side) { ++place[static_cast<std::size_t>(side.a) + 1]; });
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  context.check();
+  std::vector<Side> sides(static_cast<std::size_t>(place.back()));
+  for_each_edge_side([&](const Side& side) {
+    sides[static_cast<std::size_t>(place[static_cast<std::size_t>(side.a)]++)] = side;
   });
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
-    return std::tie(s.a, s.b, s.corner) < std::tie(t.a, t.b, t.corner);
+  // Each place is now where the next vertex begins.
+  parallel_for(context, mesh.vertices(), 1 << 14, [&](Index first, Index last) {
+    for (Index v = first; v < last; ++v) {
+      const auto begin = v == 0 ? 0 : place[static_cast<std::size_t>(v) - 1];
+      std::sort(sides.begin() + begin, sides.begin() + place[static_cast<std::size_t>(v)],
+                [](const Side& s, const Side& t) {
+                  return std::tie(s.b, s.corner) < std::tie(t.b, t.corner);
+                });
+    }
   });
   return sides;
 }
@@ -61,6 +79,19 @@ void for_each_edge(const std::vector<Side>& sides, Use&& use) {
   }
 }
 
+Index count_components(const FlatMesh& mesh) {
+  UnionFind components(mesh.vertices());
+  for (Index f = 0; f < mesh.faces(); ++f) {
+    const auto corners = mesh.face(f);
+    for (const VertexId v : corners) components.join(corners[0], v);
+  }
+  Index count = 0;
+  for (Index v = 0; v < mesh.vertices(); ++v) {
+    if (components.find(static_cast<VertexId>(v)) == v) ++count;
+  }
+  return count;
+}
+
 std::vector<VertexId> link(const FlatMesh& mesh, const std::vector<Side>& sides, SideLinks which) {
   std::vector<VertexId> links(mesh.corners.size(), -1);
   for_each_edge(sides, [&](std::size_t first, std::size_t last) {
@@ -75,8 +106,8 @@ std::vector<VertexId> link(const FlatMesh& mesh, const std::vector<Side>& sides,
 
 }  // namespace
 
-std::vector<VertexId> linked_sides(const FlatMesh& mesh, SideLinks which) {
-  return link(mesh, sorted_sides(mesh), which);
+std::vector<VertexId> linked_sides(const FlatMesh& mesh, SideLinks which, const Context& context) {
+  return link(mesh, sorted_sides(mesh, context), which);
 }
 
 std::vector<VertexId> corner_umbrellas(const FlatMesh& mesh, const std::vector<VertexId>& links) {
@@ -103,8 +134,12 @@ std::vector<VertexId> corner_umbrellas(const FlatMesh& mesh, const std::vector<V
   return umbrellas;
 }
 
-SurfaceCounts count_polygons(const FlatMesh& mesh) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+SurfaceCounts count_polygons(const FlatMesh& mesh, const Context& context) {
+  context.begin("count");
+  // Sides and their links; then links and umbrellas, which may not all fit where the sides were.
+  constexpr Index kSide = sizeof(Side) + 2 * sizeof(VertexId), kPlace = sizeof(std::ptrdiff_t);
+  context.need("count", kSide * mesh.corner_count() + kPlace * mesh.vertices());
+  std::vector<Side> sides = sorted_sides(mesh, context);
   SurfaceCounts counts;
   counts.vertices = mesh.vertices();
   counts.faces = mesh.faces();
@@ -115,16 +150,13 @@ SurfaceCounts count_polygons(const FlatMesh& mesh) {
   });
   counts.euler = counts.vertices - counts.edges + counts.faces;
 
-  UnionFind components(mesh.vertices());
-  for (Index f = 0; f < mesh.faces(); ++f) {
-    const auto corners = mesh.face(f);
-    for (const VertexId v : corners) components.join(corners[0], v);
-  }
-  for (Index v = 0; v < mesh.vertices(); ++v) {
-    if (components.find(static_cast<VertexId>(v)) == v) ++counts.components;
-  }
+  const std::vector<VertexId> links = link(mesh, sides, SideLinks::any);
+  std::vector<Side>().swap(sides);
+  context.check();
+  counts.components = count_components(mesh);
+  context.check();
 
-  const std::vector<VertexId> umbrellas = corner_umbrellas(mesh, link(mesh, sides, SideLinks::any));
+  const std::vector<VertexId> umbrellas = corner_umbrellas(mesh, links);
   std::vector<VertexId> first(static_cast<std::size_t>(mesh.vertices()), -1);
   std::vector<bool> pinched(first.size(), false);
   for (std::size_t c = 0; c < umbrellas.size(); ++c) {

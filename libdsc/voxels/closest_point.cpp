@@ -218,6 +218,7 @@ ProjectedPoints project_points(const ImplicitShape& shape, Vec3View points,
                                const Context& context) {
   ProjectedPoints result;
   result.points.resize(3, points.size);
+  context.need("project", 24 * points.size);
   context.begin("project", points.size);
   result.failures = parallel_reduce(
       context, points.size, 1024, Index{0},

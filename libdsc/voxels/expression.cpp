@@ -145,6 +145,7 @@ double Expression::Evaluator::operator()(const Vec3& p) {
 double Expression::operator()(const Vec3& p) const { return Evaluator(*this)(p); }
 
 Eigen::VectorXd Expression::operator()(Vec3View points, const Context& context) const {
+  context.need("evaluate", 8 * points.size);
   Eigen::VectorXd values(points.size);
   context.begin("evaluate", points.size);
   parallel_for(context, points.size, 4096, [&](Index first, Index last) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
 
 namespace dsc {
 namespace {
@@ -237,6 +238,36 @@ TEST_F(MeshDialects, FieldsThatCannotBeWrittenAreRenamedOrLeftOutByRemark) {
   EXPECT_TRUE(remarks(mesh, "quality is not a number at vertex 1"));
   EXPECT_TRUE(remarks(mesh, "normal of face 0 is not a unit vector"));
   write_result(folder_ / "b.ply", mesh.result());
+}
+
+TEST_F(MeshDialects, ManyFieldsThatBecomeOneNameAreNumbered) {
+  const std::string signs = "!#$%&*+-";
+  std::string properties, zeros;
+  for (const char a : signs) {
+    for (const char b : signs) {
+      for (const char c : signs) {
+        for (const char d : signs) {
+          properties += std::string("property float ") + a + b + c + d + "\n";
+          zeros += " 0";
+        }
+      }
+    }
+  }
+  const PolygonMesh mesh = read("a.ply", ply("ascii", kAxes + properties, kList) + "0 0 0" + zeros +
+                                             "\n1 0 0" + zeros + "\n0 1 0" + zeros + "\n3 0 1 2\n");
+  ASSERT_EQ(mesh.fields.size(), 4096U);
+  std::set<std::string> names;
+  for (const MeshField& field : mesh.fields) {
+    EXPECT_LT(field.name.size(), 12U);
+    names.insert(field.name);
+  }
+  EXPECT_EQ(names.size(), 4096U);
+}
+
+TEST_F(MeshDialects, ManyMorePropertiesThanAnyoneWritesAreRefused) {
+  std::string properties;
+  for (int i = 0; i < 10000; ++i) properties += "property float p" + std::to_string(i) + "\n";
+  refuse("a.ply", ply("ascii", kAxes + properties, kList), {"10000 properties"});
 }
 
 TEST_F(MeshDialects, BrokenPlyIsRefusedWithItsLine) {

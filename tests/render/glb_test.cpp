@@ -153,7 +153,28 @@ TEST(Glb, WhatItCannotHoldIsRefusedAndLeavesTheFile) {
   bad[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(render::write_glb(path, {box.view(), {scalar_field("bad", FieldOn::vertex, bad)}}),
                InputError);
+  const std::vector<double> short_field(7);
+  EXPECT_THROW(
+      render::write_glb(path, {box.view(), {scalar_field("f", FieldOn::vertex, short_field)}}),
+      UsageError);
+  test::OwnMesh broken = box;
+  broken.corners[5] = 8;
+  EXPECT_THROW(render::write_glb(path, {broken.view(), {}}), InputError);
   EXPECT_EQ(read_all(path), before);
+}
+
+TEST(Glb, NamesThatDifferInCaseOnlyAreBothThere) {
+  const TemporaryFolder folder;
+  const test::OwnMesh box = test::box(Vec3(0, 0, 0), Vec3(1, 2, 3));
+  const Eigen::VectorXd low = Eigen::VectorXd::Constant(8, 1), high = 2 * low, third = 3 * low;
+  render::write_glb(folder / "b.glb", {box.view(),
+                                       {scalar_field("heat", FieldOn::vertex, low),
+                                        scalar_field("Heat", FieldOn::vertex, high),
+                                        scalar_field("heat_2", FieldOn::vertex, third)}});
+  const Glb glb(folder / "b.glb");
+  EXPECT_EQ(glb.floats("_HEAT", 1)[3], 1);
+  EXPECT_EQ(glb.floats("_HEAT_2", 1)[3], 2);
+  EXPECT_EQ(glb.floats("_HEAT_2_2", 1)[3], 3);
 }
 
 }  // namespace

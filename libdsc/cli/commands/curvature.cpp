@@ -53,7 +53,8 @@ void measure_all(const Known& known, const Curvatures& values, Run& run) {
 
 /// The angle between the estimated and the exact principal direction, where there is one: where the
 /// principal curvatures differ by a tenth of their size.
-void measure_directions(Known known, const Eigen::Matrix3Xd& directions, Run& run) {
+/// `known` loses the others.
+void measure_directions(Known& known, const Eigen::Matrix3Xd& directions, Run& run) {
   bool any = false;
   for (auto& at : known) {
     const bool round =
@@ -77,7 +78,7 @@ void measure(const Scene& scene, bool on_vertices, const Curvatures& values,
   if (shape == nullptr) return;
   const Eigen::Matrix3Xd points =
       on_vertices ? project_vertices(scene, run) : project_face_centres(scene, run);
-  const Known known = known_curvatures(*shape, {points.data(), points.cols()}, run.context);
+  Known known = known_curvatures(*shape, {points.data(), points.cols()}, run.context);
   measure_all(known, values, run);
   if (!on_vertices) measure_directions(known, field.direction_1, run);
 }
@@ -105,6 +106,7 @@ void curvature_by_balls(Scene& scene, Run& run) {
   }
 
   const bool on_vertices = run.options.on_vertices;
+  run.context.need("curvature", 3 * 4 * 8 * field.mean.size());
   Eigen::MatrixXd per_face(4, field.mean.size());
   per_face << field.mean.transpose(), field.gaussian.transpose(), field.kappa_1.transpose(),
       field.kappa_2.transpose();

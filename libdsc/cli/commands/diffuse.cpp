@@ -1,6 +1,7 @@
 #include "libdsc/algorithms/diffusion.h"
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/stages.h"
+#include "libdsc/solve/matrix_memory.h"
 
 namespace dsc::cli {
 namespace {
@@ -10,9 +11,9 @@ Eigen::VectorXd heat_of(const FlatMesh& mesh, const std::vector<VertexId>& sourc
   Timings& timings = run.report.timings;
   DiffusionOptions options;
   options.calculus = calculus_options(run);
-  options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
+  options.factory = [&](SparseMatrix&& A, const SolverOptions& solver, const Context& context) {
     const Stopwatch watch(timings.factorize);
-    return make_spd_solver(std::move(A), solver, context);
+    return make_spd_solver(take(A), solver, context);
   };
   std::optional<HeatDiffusion> diffusion;
   {

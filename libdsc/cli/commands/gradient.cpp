@@ -53,7 +53,7 @@ void run_gradient(Run& run) {
     const Stopwatch watch(run.report.timings.solve);
     phi = sample(f, scene, run);
     gradients = face_gradients(mesh, phi, calculus_options(run), run.context);
-    note_calculus(count_clamped_faces(mesh, calculus_options(run)), run);
+    note_calculus(count_clamped_faces(mesh, calculus_options(run), run.context), run);
   }
   if (naive_mesh) {
     naive = compared(

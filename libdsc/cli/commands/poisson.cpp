@@ -5,6 +5,7 @@
 #include "libdsc/cli/smooth_surface.h"
 #include "libdsc/solve/boundary.h"
 #include "libdsc/solve/checkerboard.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <cmath>
 
@@ -80,9 +81,9 @@ PoissonAnswer solve(const FlatMesh& mesh, const Conditions& conditions, Eigen::V
   options.calculus = calculus_options(run);
   options.solver.method = SolverMethod::automatic;
   options.solver.direct_limit = kDirectLimitOnce;
-  options.factory = [&](SparseMatrix A, const SolverOptions& solver, const Context& context) {
+  options.factory = [&](SparseMatrix&& A, const SolverOptions& solver, const Context& context) {
     const Stopwatch watch(timings.factorize);
-    return make_spd_solver(std::move(A), solver, context);
+    return make_spd_solver(take(A), solver, context);
   };
   std::optional<PoissonProblem> problem;
   {
