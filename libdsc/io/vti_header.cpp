@@ -248,6 +248,9 @@ void place(VtiHeader& header, const Document& document, const Array& array, cons
                   document.origin + document.direction * document.spacing.cwiseProduct(first));
   } catch (const InputError& error) {
     file.fail(0, error.what());
+  } catch (const LimitError& error) {
+    throw LimitError("'" + file.path() + "', byte 0: " + header.grid.text() +
+                     " are too large: " + error.what());
   }
 }
 

@@ -13,6 +13,7 @@ class VtiSource final : public VolumeSource {
  public:
   explicit VtiSource(InputFile file) : file_(std::move(file)), header_(read_vti_header(file_)) {
     bytes_ = data_bytes(file_, 0, header_.grid, header_.type.bytes);
+    check_vti_room(file_, header_, bytes_);
   }
 
   const std::string& path() const override { return file_.path(); }
@@ -21,7 +22,7 @@ class VtiSource final : public VolumeSource {
   bool x_fastest() const override { return true; }
 
   void read(const std::function<void(const Slab&)>& take, const Context& context) override {
-    VtiData data(file_, header_, bytes_);
+    VtiData data(file_, header_, bytes_, context);
     const Index3& size = header_.grid.size;
     stream_slabs(
         size[2], size[0] * size[1], header_.type,

@@ -24,7 +24,10 @@ RigidMap rigid_map(const Mat3& direction, const Vec3& origin) {
         "the image's axes are not at right angles, or its direction cosines not of unit length; "
         "resample it on a straight grid");
   }
-  if (off == 0.) return {direction, origin};
+  // As orthogonal as rounding leaves a product of rotations, or what is made below; lengths change
+  // by half of it, no more than by applying the map. To make it anew would change bits for nothing.
+  constexpr double kRounding = 1e-14;
+  if (off <= kRounding) return {direction, origin};
   const Eigen::JacobiSVD<Mat3> svd(direction, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {svd.matrixU() * svd.matrixV().transpose(), origin};
 }

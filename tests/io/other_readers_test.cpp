@@ -3,12 +3,13 @@
 #include "libdsc/io/read_labels.h"
 #include "libdsc/io/results.h"
 #include "libdsc/io/volume_writer.h"
+#include "tests/io/python_check.h"
 #include "tests/io/sample_meshes.h"
 #include "tests/io/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
-#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <string>
@@ -16,22 +17,6 @@
 
 namespace dsc {
 namespace {
-
-std::string hexadecimal(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%a", value);
-  return text;
-}
-
-template <class Values, class Text>
-std::string json_list(const Values& values, const Text& text) {
-  std::string list;
-  for (const auto& value : values) list += (list.empty() ? "[" : ",") + text(value);
-  return list + "]";
-}
-std::string json_list(const std::vector<double>& values) {
-  return json_list(values, [](double v) { return '"' + hexadecimal(v) + '"'; });
-}
 
 constexpr Index3 kSize{5, 4, 3};
 
@@ -45,13 +30,7 @@ std::vector<std::uint8_t> random_voxels() {
 Grid grid_of(Index3 size) { return {size, {1, 1, 1}, Vec3::Zero()}; }
 
 #ifdef DSC_PYTHON
-int check_by_python(const std::string& folder, std::string* said = nullptr) {
-  const std::string command =
-      std::string(DSC_PYTHON " " DSC_READ_RESULTS " '") + folder + "' > '" + folder + "/said' 2>&1";
-  const int status = std::system(command.c_str());
-  if (said != nullptr) *said = read_all(folder + "/said");
-  return WEXITSTATUS(status);
-}
+const char* const kForms = "ply vtp csv off obj stl volumes vti";
 
 /// Every form of a surface and of voxels, and what they hold.
 void write_all_forms(const TemporaryFolder& folder) {
@@ -72,33 +51,45 @@ void write_all_forms(const TemporaryFolder& folder) {
   for (const char* name : {"v.vol", "v.longvol", "v.npy"}) {
     write_volume(folder / name, grid_of(kSize), std::span(voxels));
   }
-  std::string faces;
-  for (Index f = 0; f < mesh.view().faces(); ++f) {
-    faces += (f == 0 ? "" : ",") +
-             json_list(mesh.view().face(f), [](VertexId v) { return std::to_string(v); });
-  }
-  const double* p = mesh.positions.data();
-  write_all(folder / "truth.json",
-            "{\"positions\":" + json_list(std::vector<double>(p, p + mesh.positions.size())) +
-                ",\"faces\":[" + faces + "],\"scalar\":" + json_list(scalar) +
-                ",\"vector\":" + json_list(vector) + ",\"size\":[5,4,3],\"voxels\":" +
-                json_list(voxels, [](int v) { return std::to_string(v); }) + "}");
+  // As blocks and not, of bytes and of doubles, in a place of its own.
+  Grid grid = grid_of(kSize);
+  grid.spacing = Vec3(0.1, 0.25, 1. / 3);
+  VolumeWriteOptions options;
+  options.world.rotation = Eigen::Quaterniond(0.1, -0.7, 0.5, 0.3).normalized().toRotationMatrix();
+  options.world.translation = Vec3(1e-3, -1. / 7, 1e5);
+  std::vector<double> doubles;
+  for (std::size_t i = 0; i < voxels.size(); ++i) doubles.push_back(test::odd_double(random));
+  write_volume(folder / "v.vti", grid, std::span(voxels), options);
+  options.compress = false;
+  write_volume(folder / "w.vti", grid, std::span(doubles), options);
+  const auto listed = [](const auto& m) {
+    return test::json_list(std::vector<double>(m.data(), m.data() + m.size()));
+  };
+  const Mat3 rows = options.world.rotation.transpose();  // Eigen counts down the columns
+  write_all(
+      folder / "truth.json",
+      "{\"positions\":" + listed(mesh.positions) + ",\"faces\":" + test::json_faces(mesh.view()) +
+          ",\"scalar\":" + test::json_list(scalar) + ",\"vector\":" + test::json_list(vector) +
+          ",\"size\":[5,4,3],\"voxels\":" + test::json_integers(voxels) +
+          ",\"doubles\":" + test::json_list(doubles) + ",\"spacing\":" + listed(grid.spacing) +
+          ",\"origin\":" + listed(options.world.translation) + ",\"direction\":" + listed(rows) +
+          "}");
 }
 
 TEST(OtherReaders, PythonsOwnParsersFindEveryBit) {
   const TemporaryFolder folder;
   write_all_forms(folder);
   std::string said;
-  EXPECT_EQ(check_by_python(folder.path(), &said), 0) << said;
+  EXPECT_EQ(test::check_by_python(folder.path(), kForms, &said), 0) << said;
 }
 
 /// A single bit changed in any of the files is seen, so the test above can fail.
 TEST(OtherReaders, PythonSeesAChangedBit) {
   const TemporaryFolder folder;
   write_all_forms(folder);
-  ASSERT_EQ(check_by_python(folder.path()), 0);
-  for (const std::string name :
-       {"s.ply", "s.vtp", "s.csv", "s.off", "s.obj", "s.stl", "v.vol", "v.longvol", "v.npy"}) {
+  ASSERT_EQ(test::check_by_python(folder.path(), kForms), 0);
+  for (const std::string name : {"s.ply", "s.vtp", "s.csv", "s.off", "s.obj", "s.stl", "v.vol",
+                                 "v.longvol", "v.npy", "v.vti", "w.vti"}) {
     const std::string bytes = read_all(folder / name);
     std::string changed = bytes;
     if (name == "s.csv" || name == "s.off" || name == "s.obj") {  // a digit
@@ -107,6 +98,9 @@ TEST(OtherReaders, PythonSeesAChangedBit) {
     } else if (name == "s.vtp") {  // a digit of base64
       const std::size_t place = changed.find('_', changed.find("<AppendedData")) + 30;
       changed[place] = changed[place] == 'B' ? 'C' : 'B';
+    } else if (name.ends_with(".vti")) {
+      const std::size_t end = changed.find("\n</AppendedData>");
+      changed[end - 2] = static_cast<char>(changed[end - 2] ^ 1);
     } else {
       const std::size_t from_the_end = name == "s.stl" ? 4 : 2;
       changed[changed.size() - from_the_end] =
@@ -114,9 +108,18 @@ TEST(OtherReaders, PythonSeesAChangedBit) {
     }
     write_all(folder / name, changed);
     std::string said;
-    EXPECT_EQ(check_by_python(folder.path(), &said), 1) << name;
+    EXPECT_EQ(test::check_by_python(folder.path(), kForms, &said), 1) << name;
     EXPECT_NE(said.find(name.substr(2)), std::string::npos) << name << ": " << said;
     write_all(folder / name, bytes);
+  }
+  // What .vti says of its place: the last digit of each number.
+  const std::string bytes = read_all(folder / "v.vti");
+  for (const std::string key : {"Extent", "Origin", "Spacing", "Direction"}) {
+    std::string changed = bytes;
+    char& digit = changed[changed.find('"', changed.find(" " + key + "=\"") + key.size() + 3) - 1];
+    digit = digit == '7' ? '8' : '7';
+    write_all(folder / "v.vti", changed);
+    EXPECT_EQ(test::check_by_python(folder.path(), kForms), 1) << key;
   }
 }
 #else

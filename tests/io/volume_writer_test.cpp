@@ -9,7 +9,12 @@
 #include "tests/io/volume_bytes.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace dsc {
@@ -90,6 +95,82 @@ TEST(VolumeWriter, NpyKeepsTheTypeOfTheValues) {
   expect_typed_roundtrip<std::int32_t>(path, {0, 1, -5, 2000000000});
   expect_typed_roundtrip<std::uint64_t>(path, {0, 1, 2, ~0ull});
   expect_typed_roundtrip<std::int64_t>(path, {0, 1, -2, INT64_MIN});
+}
+
+/// The bytes of all values of a volume that are of type T.
+template <class T>
+std::vector<T> typed_values(VolumeSource& source) {
+  std::vector<T> all;
+  source.read([&](const Slab& slab) {
+    const auto values = std::get<std::span<const T>>(slab.values);
+    all.insert(all.end(), values.begin(), values.end());
+  });
+  return all;
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// Written, read and written again: the same values, to the last bit, and the same file.
+template <class T>
+void expect_vti_keeps(const TemporaryFolder& folder, const std::vector<T>& values,
+                      const VolumeWriteOptions& options = {}, const Vec3& spacing = Vec3::Ones()) {
+  const Grid grid{{std::ssize(values) / 2, 1, 2}, spacing, Vec3::Zero()};
+  write_volume(folder / "a.vti", grid, std::span(values), options);
+  const auto source = open_volume(folder / "a.vti");
+  VolumeWriteOptions again = options;
+  again.world = source->world();
+  const std::vector<T> back = typed_values<T>(*source);
+  EXPECT_TRUE(same_bits(back, values));
+  write_volume(folder / "b.vti", source->grid(), std::span(back), again);
+  EXPECT_EQ(read_all(folder / "a.vti"), read_all(folder / "b.vti"));
+}
+
+/// The ends of the type and what is at 0; of floats also what is no number, with any bits.
+template <class T>
+std::vector<T> ends_of() {
+  using Limits = std::numeric_limits<T>;
+  std::vector<T> ends = {0, 1, Limits::min(), Limits::lowest(), Limits::max(), Limits::max() / 3};
+  if constexpr (Limits::is_iec559) {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    const auto quiet = std::bit_cast<Bits>(Limits::quiet_NaN());
+    ends.insert(ends.end(), {-T{0}, Limits::infinity(), -Limits::infinity(), Limits::denorm_min(),
+                             Limits::quiet_NaN(), -Limits::quiet_NaN(),
+                             std::bit_cast<T>(quiet | Bits{12345}), T{1} / 3});
+  }
+  return ends;
+}
+
+template <class... Types>
+void expect_vti_keeps_all(const TemporaryFolder& folder) {
+  for (const bool compress : {false, true}) {
+    (expect_vti_keeps(folder, ends_of<Types>(), {.compress = compress}), ...);
+  }
+}
+
+TEST(VolumeWriter, VtiKeepsEveryBitOfEveryType) {
+  expect_vti_keeps_all<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                       std::int32_t, std::uint64_t, std::int64_t, float, double>(TemporaryFolder());
+}
+
+TEST(VolumeWriter, VtiKeepsEveryBitOfItsPlace) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 100; ++i) {
+    VolumeWriteOptions options;
+    RigidMap& world = options.world;
+    world.rotation = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    if (i % 3 == 1) world.rotation.col(i % 2) *= -1.;  // mirrors
+    if (i % 3 == 2) world.rotation *= Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    world.translation = Vec3::Random() * std::pow(10., i % 20 - 10);
+    const Vec3 spacing = Vec3::Random().cwiseAbs() + Vec3::Constant(1e-9);
+    expect_vti_keeps<std::uint8_t>(folder, {1, 2}, options, spacing);
+    const auto source = open_volume(folder / "b.vti");
+    EXPECT_EQ(source->world().rotation, world.rotation);
+    EXPECT_EQ(source->world().translation, world.translation);
+    EXPECT_EQ(source->grid().spacing, spacing);
+  }
 }
 
 TEST(VolumeWriter, LabelsKeepTheirWidthWhereTheFormHasTypes) {

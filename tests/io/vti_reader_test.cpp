@@ -1,12 +1,13 @@
-// .vti files, written here by the words of the format, in each of its
-// encodings.
+// .vti files, written here by the words of the format, in each of its encodings.
 #include "libdsc/base/error.h"
 #include "libdsc/io/volume_source.h"
 #include "libdsc/io/volume_writer.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/io/volume_bytes.h"
+#include "tests/support/stage_memory.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -230,6 +231,193 @@ TEST(VtiReader, WhatItCannotReadIsRefusedByName) {
   two.replace(two.find("Scalars=\"ct\""), 12, "");
   write_bytes(path, two);
   EXPECT_THROW(open_volume(path), InputError);  // which of the two arrays?
+}
+
+/// An image of bytes, and what stands for them: sizes in words of 8 bytes, then zlib streams.
+std::string image_of_blocks(const Index3 &size, const std::string &sizes_and_blocks) {
+  std::string extent;
+  for (const Index n : size) extent += "0 " + std::to_string(n - 1) + " ";
+  return "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+         "compressor=\"vtkZLibDataCompressor\"><ImageData WholeExtent=\"" +
+         extent + "\"><Piece Extent=\"" + extent +
+         "\"><PointData><DataArray type=\"UInt8\" Name=\"v\" format=\"appended\" offset=\"0\"/>"
+         "</PointData></Piece></ImageData><AppendedData encoding=\"raw\">_" +
+         sizes_and_blocks;
+}
+
+/// The number of blocks, the size of each and of the last, and the compressed sizes.
+std::string words_of(const std::vector<std::uint64_t> &values) {
+  std::string words;
+  for (const std::uint64_t value : values) words += little_endian(value, 8);
+  return words;
+}
+
+/// Notes the most that is asked for at once, and refuses more than `allowed`.
+class AskedMemory final : public MemoryLimit {
+ public:
+  explicit AskedMemory(Index allowed) : allowed_(allowed) {}
+  void need(std::string_view stage, Index bytes) const override {
+    most = std::max(most, bytes);
+    if (bytes > allowed_) throw LimitError("refused to '" + std::string(stage) + "'");
+  }
+  Index left() const override { return allowed_; }
+  mutable Index most = 0;
+
+ private:
+  Index allowed_;
+};
+
+constexpr Index kMiB = Index{1} << 20;
+
+/// What `run` takes at its peak, beside what was held.
+template <class Run>
+Index taken_by(const Run &run) {
+  (void)::malloc_trim(0);
+  testing::reset_peak();
+  const Index held = resident_bytes();
+  run();
+  return testing::peak_bytes() - held;
+}
+
+TEST(VtiReader, ABlockOfAnySizeTakesNoMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take memory of their own";
+#endif
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const Index3 size{1024, 1024, 64};
+  {
+    const std::string packed = deflated(std::string(64 * kMiB, '\7'));
+    write_bytes(path, image_of_blocks(size, words_of({1, 64 * kMiB, 0, packed.size()}) + packed));
+  }
+  const auto source = open_volume(path);
+  const AskedMemory memory(8 * kMiB);
+  Index sevens = 0;
+  const Index taken = taken_by([&] {
+    source->read(
+        [&](const Slab &slab) {
+          const auto values = std::get<std::span<const std::uint8_t>>(slab.values);
+          sevens += std::count(values.begin(), values.end(), 7);
+        },
+        {1, nullptr, &memory});
+  });
+  EXPECT_EQ(sevens, 64 * kMiB);
+  EXPECT_LT(taken, 12 * kMiB) << "a slab is 4 MiB";
+}
+
+TEST(VtiReader, TheSizesOfManyBlocksAreAskedFor) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const Index3 size{100, 100, 20};
+  const std::uint64_t n = 200000;  // blocks of a byte each
+  const std::string packed = deflated("\7");
+  std::vector<std::uint64_t> sizes{n, 1, 0};
+  sizes.resize(3 + n, packed.size());
+  std::string data = words_of(sizes);
+  for (std::uint64_t i = 0; i < n; ++i) data += packed;
+  write_bytes(path, image_of_blocks(size, data));
+  const AskedMemory little(kMiB), enough(4 * kMiB);
+  EXPECT_THROW(open_volume(path)->read([](const Slab &) {}, {1, nullptr, &little}), LimitError);
+  EXPECT_NO_THROW(open_volume(path)->read([](const Slab &) {}, {1, nullptr, &enough}));
+  EXPECT_GE(enough.most, static_cast<Index>(8 * n));
+}
+
+/// Expects a refusal with `part` in its message that asks for and takes less than 12 MiB.
+void expect_refused_in_little(const std::string &path, const std::string &part) {
+  const AskedMemory memory(Index{1} << 40);
+  const Index taken = taken_by([&] {
+    expect_input_error(
+        [&] {
+          open_volume(path)->read([](const Slab &) {}, {1, nullptr, &memory});
+        },
+        {path, part});
+  });
+  EXPECT_LT(memory.most, 12 * kMiB);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(taken, 12 * kMiB);
+#else
+  (void)taken;
+#endif
+}
+
+TEST(VtiReader, BlocksThatAreNotThereTakeNoMemory) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const std::string filler(100000, 'x');  // as if values might be in it
+  write_bytes(path, image_of_blocks({1000, 1000, 50}, words_of({50000000, 1, 0}) + filler));
+  expect_refused_in_little(path, "do not fit the file");
+  write_bytes(path, image_of_blocks({1000, 1000, 50}, words_of({1, 50000000, 0, 1}) + filler));
+  expect_refused_in_little(path, "block 1 does not fit the file");
+  write_bytes(path, image_of_blocks({1000, 1000, 50}, words_of({1, 50000000, 0, 100001}) + filler));
+  expect_refused_in_little(path, "block 1 does not fit the file");
+  // 2^24 blocks of 2^40 bytes and one of 1000: their sum is 1000 in 64 bits.
+  const std::uint64_t two = 1;
+  write_bytes(path, image_of_blocks({10, 10, 10}, words_of({(two << 24) + 1, two << 40, 1000})));
+  std::filesystem::resize_file(path, (std::uintmax_t{1} << 30) + 4096);
+  expect_refused_in_little(path, "do not make the 1000 bytes");
+}
+
+TEST(VtiReader, AFileTooShortForItsExtentIsNotOpened) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const std::string place = "WholeExtent=\"0 1999 0 1999 0 1999\"";
+  for (const Style &style : styles()) {
+    write_bytes(path, file_of(style, place));
+    expect_input_error([&] { (void)open_volume(path); }, {path, "more than the file can hold"});
+  }
+}
+
+TEST(VtiReader, ABlockIsAsLongAsItsSizesSay) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const auto write = [&](const std::string &packed, std::uint64_t said) {
+    const std::string other = deflated("123456789012");
+    write_bytes(path, image_of_blocks({12, 2, 1},
+                                      words_of({2, 12, 0, said, other.size()}) + packed + other));
+  };
+  const std::string good = deflated("abcdefghijkl");
+  write(good, good.size());
+  EXPECT_EQ(values_of(*open_volume(path)).back(), '2');
+  std::string wrong_sum = good;
+  wrong_sum.back() = static_cast<char>(wrong_sum.back() ^ 1);
+  const auto expect_damaged = [&](const std::string &packed, std::uint64_t said) {
+    write(packed, said);
+    expect_input_error([&] { (void)values_of(*open_volume(path)); }, {path, "block 1", "damaged"});
+  };
+  expect_damaged(wrong_sum, good.size());
+  expect_damaged(good + "x", good.size() + 1);
+  expect_damaged(good, good.size() - 1);
+  for (const char *text : {"abcdefghijk", "abcdefghijklm"}) {
+    expect_damaged(deflated(text), deflated(text).size());
+  }
+}
+
+/// Cancels where the sizes of the blocks are asked for, after the slab.
+class CancelInTheMidst final : public MemoryLimit {
+ public:
+  explicit CancelInTheMidst(Monitor &monitor) : monitor_(monitor) {}
+  void need(std::string_view, Index) const override {
+    if (++asked_ == 2) monitor_.cancel();
+  }
+  Index left() const override { return Index{1} << 40; }
+
+ private:
+  Monitor &monitor_;
+  mutable int asked_ = 0;
+};
+
+TEST(VtiReader, ASliceIsCancelledBeforeItsEnd) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "v.vti";
+  const std::string packed = deflated(std::string(16 * kMiB, '\7'));
+  write_bytes(
+      path, image_of_blocks({4096, 4096, 1}, words_of({1, 16 * kMiB, 0, packed.size()}) + packed));
+  Monitor monitor;
+  const CancelInTheMidst memory(monitor);
+  bool whole = false;
+  EXPECT_THROW(open_volume(path)->read([&](const Slab &) { whole = true; }, {1, &monitor, &memory}),
+               Cancelled);
+  EXPECT_FALSE(whole);
 }
 
 TEST(VtiWriter, WritesWhatTheReaderReadsToTheLastBit) {

@@ -35,6 +35,37 @@ TEST(RigidMap, RoundedCosinesBecomeOrthogonal) {
   EXPECT_LT((map.rotation - exact).norm(), 1e-6);
 }
 
+double off(const Mat3& r) { return (r.transpose() * r - Mat3::Identity()).cwiseAbs().maxCoeff(); }
+
+/// A rotation or a reflection of a random one, as `turns` products leave it.
+Mat3 random_turn(int turns) {
+  Mat3 r = Mat3::Identity();
+  for (int i = 0; i < turns; ++i) r *= Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+  return r;
+}
+
+TEST(RigidMap, OrthogonalCosinesAreKeptToTheLastBit) {
+  for (int i = 0; i < 2000; ++i) {
+    Mat3 r = random_turn(1 + i % 8);
+    if (i % 2 == 1) r.col(i % 3) *= -1.;
+    ASSERT_EQ(rigid_map(r, Vec3::Zero()).rotation, r) << off(r);
+    // What was made orthogonal is so from then on.
+    const Mat3 made = rigid_map(r.cast<float>().cast<double>(), Vec3::Zero()).rotation;
+    ASSERT_EQ(rigid_map(made, Vec3::Zero()).rotation, made) << off(made);
+  }
+}
+
+TEST(RigidMap, IsOrthogonalUpToRoundingWhateverIsGiven) {
+  for (const double size : {1e-3, 1e-6, 1e-9, 1e-12, 1e-13, 1e-14, 1e-15}) {
+    for (int i = 0; i < 200; ++i) {
+      const Mat3 given = random_turn(1) + 0.2 * size * Mat3::Random();
+      const RigidMap map = rigid_map(given, Vec3::Zero());
+      ASSERT_LE(off(map.rotation), 1e-14) << size;
+      ASSERT_LE((map.rotation - given).norm(), 2 * size + 1e-14) << size;
+    }
+  }
+}
+
 TEST(RigidMap, ShearsScalesAndNaNAreRefused) {
   Mat3 sheared = Mat3::Identity();
   sheared(0, 1) = 0.1;
