@@ -60,7 +60,7 @@ void LaplacianPattern::need_memory(const FlatMesh& mesh, const Context& context)
   // are collected, with room for 10 entries each, and joined.
   const Index pairs = pairs_before(faces_);
   const Index most = mesh.vertices() + pairs - corners_;
-  const Index slots = pairs * (digital_ ? 1 : 4);
+  const Index slots = checked_product(pairs, digital_ ? 1 : 4, "bytes of pairs of corners");
   const Index incident = (mesh.offsets.empty() ? 4 : 8) * corners_;
   context.need("laplacian pattern", slots + incident + 8 * mesh.vertices() + 4 * most +
                                         4 * std::max(most, 10 * mesh.vertices()));

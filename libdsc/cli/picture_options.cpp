@@ -12,6 +12,12 @@
 namespace dsc::cli {
 namespace {
 
+#ifdef DSC_WITH_PICTURES
+constexpr bool kPictures = true;
+#else
+constexpr bool kPictures = false;
+#endif
+
 constexpr const char* kOptions[] = {"--view",     "--up",      "--picture-size",
                                     "--field",    "--range",   "--colormap",
                                     "--isolines", "--shading", "--glyphs"};
@@ -146,13 +152,12 @@ void check_picture_options(const Options& o) {
     }
     return;
   }
-#ifndef DSC_WITH_PICTURES
-  throw UsageError(
-      "this dsc was built without pictures: install Embree and libpng (Debian: libembree-dev "
-      "libpng-dev) and build it with -DDSC_WITH_PICTURES=ON, or choose another ending than .png");
-#else
+  if (!kPictures) {
+    throw UsageError(
+        "this dsc was built without pictures: install Embree and libpng (Debian: libembree-dev "
+        "libpng-dev) and build it with -DDSC_WITH_PICTURES=ON, or choose another ending than .png");
+  }
   check_have_effect(o);
-#endif
 }
 
 }  // namespace dsc::cli
