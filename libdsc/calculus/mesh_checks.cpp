@@ -44,6 +44,15 @@ void check_mesh(const FlatMesh& mesh, const CalculusOptions& options) {
       if (!std::isfinite(mesh.spacing[k]) || mesh.spacing[k] <= 0.) {
         throw InputError("the voxel spacing must be positive on every axis");
       }
+      // Areas and their inverse, and ratios of sides, as the operators have them.
+      const double next = mesh.spacing[(k + 1) % 3];
+      if (!std::isnormal(mesh.spacing[k] * next) || !std::isnormal(mesh.spacing[k] / next) ||
+          !std::isnormal(1 / (mesh.spacing[k] * next))) {
+        std::ostringstream text;
+        text << "surfels of " << mesh.spacing[k] << " x " << next
+             << " have no area, or sides too different, for doubles; choose another unit of length";
+        throw InputError(text.str());
+      }
     }
   } else if (options.stabilization == Stabilization::corrected_elements ||
              options.stabilization == Stabilization::virtual_refinement) {

@@ -5,6 +5,9 @@
 #include "libdsc/calculus/face_operators.h"
 #include "libdsc/calculus/field_operators.h"
 #include "libdsc/calculus/global_operators.h"
+#include "libdsc/calculus/heat_kernel_laplacian.h"
+#include "libdsc/calculus/laplacian_pattern.h"
+#include "libdsc/calculus/vertex_average.h"
 #include "tests/calculus/meshes.h"
 
 #include <gtest/gtest.h>
@@ -179,33 +182,44 @@ TEST(DegenerateFaces, KeepTheLawsAtEveryScaleOrAreRefused) {
 
 TEST(DegenerateFaces, ThinOnesKeepTheLawsUnderEstimatedNormalsToo) {
   std::mt19937 random(11);
+  Index kept = 0, refused = 0;
   for (const Face& face : thin_faces()) {
-    const Corners X = turned(face.X, 1, Vec3::Zero());
-    try {
-      const FaceOperators own(X);
-      for (int trial = 0; trial < 3; ++trial) {
-        const Vec3 u = (own.normal() + 0.9 * testing::random_unit(random)).normalized();
+    for (const double scale : kScales) {
+      for (const double shift : {0., 1., 1e3}) {
+        const Corners X = turned(face.X, scale, Vec3(shift, -2 * shift, shift));
+        const std::string what = face.name + " x " + std::to_string(std::log10(scale)) + " + " +
+                                 std::to_string(shift) + " projected";
         try {
-          expect_laws(FaceOperators(X, u), face.name + " projected");
-        } catch (const InputError&) {  // the projection has no area
+          const FaceOperators own(X);
+          for (int trial = 0; trial < 3; ++trial) {
+            const Vec3 u = (own.normal() + 0.9 * testing::random_unit(random)).normalized();
+            try {
+              const FaceOperators f(X, u);
+              ++kept;
+              expect_laws(f, what);
+            } catch (const InputError&) {  // the projection has no area
+              ++refused;
+            }
+            if (HasFailure()) return;
+          }
+        } catch (const InputError&) {
         }
-        if (HasFailure()) return;
       }
-    } catch (const InputError&) {
     }
   }
+  EXPECT_GT(kept, 10000);
+  EXPECT_GT(refused, 0);
 }
 
 /// A good face, the bad one, a good face: each entry point names face 1.
-TEST(DegenerateFaces, WithoutAreaAreNamedByEveryEntryPoint) {
-  struct Entry {
-    const char* name;
-    std::function<void(const FlatMesh&)> call;
-  };
-  const auto function = [](const FlatMesh& m) {
-    return Eigen::VectorXd::Zero(m.vertices()).eval();
-  };
-  const Entry entries[] = {
+struct Entry {
+  const char* name;
+  std::function<void(const FlatMesh&)> call;
+};
+
+/// All that makes operators of a mesh.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
       {"assemble_laplacian", [](const FlatMesh& m) { (void)assemble_laplacian(m); }},
       {"laplacian_matrix", [](const FlatMesh& m) { (void)laplacian_matrix(m); }},
       {"mass0_matrix", [](const FlatMesh& m) { (void)mass0_matrix(m); }},
@@ -214,13 +228,25 @@ TEST(DegenerateFaces, WithoutAreaAreNamedByEveryEntryPoint) {
       {"flat_matrix", [](const FlatMesh& m) { (void)flat_matrix(m); }},
       {"sharp_matrix", [](const FlatMesh& m) { (void)sharp_matrix(m); }},
       {"divergence_matrix", [](const FlatMesh& m) { (void)divergence_matrix(m); }},
-      {"face_gradients", [&](const FlatMesh& m) { (void)face_gradients(m, function(m)); }},
+      {"face_gradients",
+       [](const FlatMesh& m) { (void)face_gradients(m, Eigen::VectorXd::Zero(m.vertices())); }},
       {"integrated_divergence",
        [](const FlatMesh& m) {
          (void)integrated_divergence(m, Eigen::Matrix3Xd::Zero(3, m.faces()));
        }},
       {"face_operators", [](const FlatMesh& m) { (void)face_operators(m, 1); }},
+      {"LaplacianPattern", [](const FlatMesh& m) { (void)LaplacianPattern(m).assemble(m); }},
+      {"average_to_vertices",
+       [](const FlatMesh& m) {
+         (void)average_to_vertices(m, Eigen::MatrixXd::Zero(2, m.faces()));
+       }},
+      {"vertex_normals", [](const FlatMesh& m) { (void)vertex_normals(m); }},
+      {"HeatKernelLaplacian", [](const FlatMesh& m) { (void)HeatKernelLaplacian(m, 1.); }},
   };
+  return all;
+}
+
+TEST(DegenerateFaces, WithoutAreaAreNamedByEveryEntryPoint) {
   for (const double scale : kScales) {
     for (const Face& face : faces_without_area()) {
       const bool has_scale = face.name.find("doubles") != std::string::npos;
@@ -238,7 +264,7 @@ TEST(DegenerateFaces, WithoutAreaAreNamedByEveryEntryPoint) {
         ids.push_back(owned.add_vertex(scale * face.X.row(i).transpose()));
       owned.add_face(ids);
       triangle();
-      for (const Entry& entry : entries) {
+      for (const Entry& entry : entries()) {
         const std::string what = std::string(entry.name) + " of " + face.name + " x " +
                                  std::to_string(std::log10(scale));
         try {
@@ -249,6 +275,21 @@ TEST(DegenerateFaces, WithoutAreaAreNamedByEveryEntryPoint) {
               << what << ": " << error.what();
         }
       }
+    }
+  }
+}
+
+TEST(DegenerateFaces, SurfelsBeyondDoublesAreRefusedByEveryEntryPoint) {
+  for (const Vec3& scale : {Vec3(1e-170, 1e-170, 1e-170), Vec3(1e200, 1e200, 1e200),
+                            Vec3(1e-200, 1e200, 1), Vec3(1, 1e-320, 1)}) {
+    OwnedMesh mesh = testing::digital_family().front();
+    mesh.spacing = mesh.spacing.cwiseProduct(scale);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      mesh.positions[i] *= scale[static_cast<Index>(i % 3)];
+    }
+    for (const Entry& entry : entries()) {
+      EXPECT_THROW(entry.call(mesh.view()), InputError)
+          << entry.name << " of " << scale.transpose();
     }
   }
 }

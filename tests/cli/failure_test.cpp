@@ -23,15 +23,25 @@ Words with(Words words, const Words& more) {
 }
 
 TEST(Failure, AnExistingFileSurvivesAWriteThatFails) {
-  for (const std::string name : {"s.ply", "s.vtp", "s.csv"}) {
+  Words endings = {"ply", "vtp", "csv", "off", "obj", "stl", "om", "glb"};
+  for (const char* ending : {"vol", "longvol", "npy", "vti"}) endings.emplace_back(ending);
+  for (const std::string& ending : endings + seen_endings()) {
+    SCOPED_TRACE(ending);
     const Folder folder;
+    const std::string name = "s." + ending;
     write_file(folder / name, "old");
-    const Outcome outcome = run_dsc(with(kSurface, {"-o", folder / name}), [] {
-      const rlimit limit{20000, 20000};  // bytes a file may have
+    const bool voxels = ending == "vti" || ending == "npy" || ending.find("vol") < ending.size();
+    Words command = kSurface;
+    if (voxels) command[0] = "voxels";
+    // Compressed voxels are few bytes.
+    const rlim_t bytes = voxels ? 500 : 20000;
+    const Outcome outcome = run_dsc(with(command, {"-o", folder / name}), [&] {
+      const rlimit limit{bytes, bytes};  // that a file may have
       ::setrlimit(RLIMIT_FSIZE, &limit);
     });
     EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
     EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("File too large"), std::string::npos) << outcome.err;
     EXPECT_EQ(read_file(folder / name), "old");
     EXPECT_EQ(folder.names(), Words{name});
   }
