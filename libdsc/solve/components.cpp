@@ -2,6 +2,7 @@
 
 #include "libdsc/base/error.h"
 
+#include <cmath>
 #include <string>
 
 namespace dsc {
@@ -48,17 +49,30 @@ Components connected_components(const FlatMesh& mesh) {
   return components;
 }
 
+namespace {
+
+/// Of the size of the largest entry; 1 where all are 0.
+double power_of_two_over(const Eigen::VectorXd& x) {
+  const double largest = x.size() == 0 ? 0. : x.cwiseAbs().maxCoeff();
+  return std::isnormal(largest) ? std::ldexp(1., std::ilogb(largest)) : 1.;
+}
+
+}  // namespace
+
 Eigen::VectorXd component_means(const Components& components, const Eigen::VectorXd& weights,
                                 const Eigen::VectorXd& x) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(components.count());
   Eigen::VectorXd total = Eigen::VectorXd::Zero(components.count());
+  // Products of large weights and values would be infinite; powers of two change no digit.
+  const double w_unit = weights.size() != 0 ? power_of_two_over(weights) : 1;
+  const double x_unit = power_of_two_over(x);
   for (Index v = 0; v < x.size(); ++v) {
     const VertexId c = components.of_vertex[static_cast<std::size_t>(v)];
-    const double w = weights.size() != 0 ? weights[v] : 1;
-    sum[c] += w * x[v];
+    const double w = weights.size() != 0 ? weights[v] / w_unit : 1;
+    sum[c] += w * (x[v] / x_unit);
     total[c] += w;
   }
-  return sum.cwiseQuotient(total);
+  return x_unit * sum.cwiseQuotient(total);
 }
 
 }  // namespace dsc

@@ -99,6 +99,16 @@ TEST(Neumann, TheWeightedMeanVanishesOnEachComponent) {
   }
 }
 
+TEST(Neumann, ValuesAndWeightsOfAnySizeHaveAMean) {
+  const SparseMatrix A = grid_laplacian(20, 30, 2);
+  const NeumannSolver solver(A, halves(600));
+  const Eigen::VectorXd b = A * scrambled(1200), weights = scrambled(1200, 5).array() + 2;
+  const Eigen::VectorXd x = solver.solve(b, weights).x;
+  for (const double scale : {0x1p-700, 0x1p700}) {  // powers of two, which round nothing
+    EXPECT_TRUE(solver.solve(scale * b, scale * weights).x == scale * x) << scale;
+  }
+}
+
 TEST(Neumann, AnIncompatibleRightHandSideIsRefused) {
   const NeumannSolver solver(grid_laplacian(4, 4, 2), halves(16));
   Eigen::VectorXd b = Eigen::VectorXd::Zero(32);
