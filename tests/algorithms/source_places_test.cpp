@@ -6,6 +6,7 @@
 #include "libdsc/normals/surface_normals.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/surface/extract.h"
+#include "tests/algorithms/meshes.h"
 #include "tests/solve/grid_systems.h"
 #include "tests/support/random_volume.h"
 
