@@ -9,6 +9,8 @@
 #include "libdsc/page/page.h"
 #include "libdsc/render/glb_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -264,7 +266,7 @@ void write_outputs(const Scene& scene, const Result& result, Run& run) {
         render::is_glb_path(path) ? render::write_glb(path, placed.get(), run.context)
                                   : write_result(path, placed.get(), run.context);
     for (const std::string& field : left_out) {
-      run.warn("'" + path + "' has no room for " + field + "; write .ply or .vtp as well");
+      run.warn(fmt::format("'{}' has no room for {}; write .ply or .vtp as well", path, field));
     }
     run.report.outputs.push_back(path);
   }
