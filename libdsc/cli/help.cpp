@@ -158,7 +158,7 @@ std::string wrapped(const std::string& text) {
       const std::size_t blank = line.rfind(' ', kWidth);
       if (blank == std::string::npos || blank <= indent.size()) break;
       result += line.substr(0, blank) + "\n";
-      line = indent + line.substr(blank + 1);
+      line.replace(0, blank + 1, indent);
     }
     result += line + "\n";
   }

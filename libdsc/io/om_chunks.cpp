@@ -90,6 +90,10 @@ OmChunk read_chunk(Cursor& cursor, const OmBytes& file, const OmFile& om, int fi
   const Index dimensions = (bits >> 11 & 7) + 1;
   const Index scale = Index{1} << (bits >> 14 & 3);
   if ((bits >> 1 & 1) != 0) {
+    // OpenMesh would read less than what a property has here, and the rest as the next chunk.
+    if (chunk.kind != OmKind::custom) {
+      file.fail(chunk.begin, "a chunk has a name and is no property; the file is damaged");
+    }
     chunk.name = cursor.text();
     if (file_version >= version(2, 2)) chunk.type = cursor.text();
   }

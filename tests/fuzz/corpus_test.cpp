@@ -81,6 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Finding{"om/read-vertices-last", ""}, Finding{"om/read-property-first", ""},
         Finding{"om/read-names-of-openmesh", ""},
         Finding{"om/refuse-property-twice", "'h' comes twice"},
+        Finding{"om/refuse-positions-with-a-name", "has a name"},
         // Two fields of one name, which could not be written.
         Finding{"om/read-a-vector-called-as-a-scalar", ""},
         // The name of a plane made another plane.

@@ -2,6 +2,8 @@
 #include "libdsc/cli/input.h"
 #include "libdsc/io/volume_writer.h"
 
+#include <fmt/format.h>
+
 namespace dsc::cli {
 
 void run_voxels(Run& run) {
@@ -14,7 +16,7 @@ void run_voxels(Run& run) {
         [&](const auto& volume) { return write_volume(path, volume, options, run.context); },
         input.voxels);
     for (const std::string& what : left_out) {
-      run.warn("'" + path + "' has no room for " + what + "; write .vti as well");
+      run.warn(fmt::format("'{}' has no room for {}; write .vti as well", path, what));
     }
     run.report.outputs.push_back(path);
   }
