@@ -246,8 +246,8 @@ TEST(SameBits, OfOtherVolumes) {
                 .exit_code,
             0);
   Words volumes = {"v.vti", "v.npy", "v.longvol"};
-  constexpr Index n = 50;
 #ifdef DSC_IMAGE_READER
+  constexpr Index n = 50;
   volumes.emplace_back("v.mha");
   TestImage image{{n, n, n}, {1, 0.75, 1.5}, test_direction(-1), {-20, 100, 7}, {}};
   for (Index z = 0; z < n; ++z) {
