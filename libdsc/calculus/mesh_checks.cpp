@@ -45,11 +45,10 @@ void check_mesh(const FlatMesh& mesh, const CalculusOptions& options) {
         throw InputError("the voxel spacing must be positive on every axis");
       }
       // Areas and their inverse, and ratios of sides, as the operators have them.
-      const double next = mesh.spacing[(k + 1) % 3];
-      if (!std::isnormal(mesh.spacing[k] * next) || !std::isnormal(mesh.spacing[k] / next) ||
-          !std::isnormal(1 / (mesh.spacing[k] * next))) {
+      const double side = mesh.spacing[k], next = mesh.spacing[(k + 1) % 3], area = side * next;
+      if (!std::isnormal(area) || !std::isnormal(1 / area) || !std::isnormal(side / next)) {
         std::ostringstream text;
-        text << "surfels of " << mesh.spacing[k] << " x " << next
+        text << "surfels of " << side << " x " << next
              << " have no area, or sides too different, for doubles; choose another unit of length";
         throw InputError(text.str());
       }

@@ -216,10 +216,10 @@ ClosestPoint closest_point(const ImplicitShape& shape, const Vec3& p) {
 
 ProjectedPoints project_points(const ImplicitShape& shape, Vec3View points,
                                const Context& context) {
-  ProjectedPoints result;
-  result.points.resize(3, points.size);
   context.need("project", 24 * points.size);
   context.begin("project", points.size);
+  ProjectedPoints result;
+  result.points.resize(3, points.size);
   result.failures = parallel_reduce(
       context, points.size, 1024, Index{0},
       [&](Index first, Index last) {
