@@ -8,6 +8,7 @@
 #include "libdsc/normals/surface_normals.h"
 #include "libdsc/page/page.h"
 #include "libdsc/render/glb_file.h"
+#include "libdsc/solve/matrix_memory.h"
 
 #include <fmt/format.h>
 
@@ -176,6 +177,13 @@ CalculusOptions calculus_options(const Run& run) {
   options.lambda = run.options.lambda;
   options.stabilization = run.options.stabilisation;
   return options;
+}
+
+SpdSolverFactory timed_solvers(Run& run) {
+  return [&](SparseMatrix&& A, const SolverOptions& options, const Context& context) {
+    const Stopwatch watch(run.report.timings.factorize);
+    return make_spd_solver(take(A), options, context);
+  };
 }
 
 Index count_clamped_faces(const FlatMesh& mesh, const CalculusOptions& options,

@@ -8,6 +8,7 @@
 #include "libdsc/cli/mesh_input.h"
 #include "libdsc/cli/run.h"
 #include "libdsc/io/results.h"
+#include "libdsc/solve/spd_solver.h"
 #include "libdsc/surface/digital_surface.h"
 #include "libdsc/voxels/expression.h"
 
@@ -45,6 +46,9 @@ Scene prepare_scene(Run& run);
 
 /// f at the world positions of the vertices.
 Eigen::VectorXd sample_at_vertices(const Expression& f, const Scene& scene, Run& run);
+
+/// make_spd_solver(), its time counted as that of the factorization. `run` outlives it.
+SpdSolverFactory timed_solvers(Run& run);
 
 /// The mesh that the calculus reads: naive where the options ask for it.
 FlatMesh flat_mesh(const DigitalSurface& surface, const Run& run);

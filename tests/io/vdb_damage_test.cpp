@@ -16,12 +16,6 @@
 namespace dsc {
 namespace {
 
-using test::VdbClass;
-using test::VdbForm;
-using test::VdbGrid;
-using test::VdbType;
-using test::VdbVoxel;
-
 TEST_F(Vdb, WhatIsNoVolumeIsRefused) {
   const auto expect = [&](const VdbGrid& grid, const std::string& part) {
     SCOPED_TRACE(part);

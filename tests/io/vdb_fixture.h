@@ -9,6 +9,12 @@
 
 namespace dsc {
 
+using test::VdbClass;
+using test::VdbForm;
+using test::VdbGrid;
+using test::VdbType;
+using test::VdbVoxel;
+
 class Vdb : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
@@ -17,8 +23,8 @@ class Vdb : public ::testing::Test {
 
 /// Voxels of an odd box with values from a rule.
 template <class Value>
-test::VdbGrid box_of(test::VdbType type, const Value& value) {
-  test::VdbGrid grid{.type = type};
+VdbGrid box_of(VdbType type, const Value& value) {
+  VdbGrid grid{.type = type};
   for (int z = 0; z < 11; ++z) {
     for (int y = 0; y < 3; ++y) {
       for (int x = 0; x < 10; ++x)

@@ -14,11 +14,6 @@
 namespace dsc {
 namespace {
 
-using test::VdbClass;
-using test::VdbForm;
-using test::VdbGrid;
-using test::VdbType;
-
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Matrix4d matrix_of(const Mat3& axes, const Vec3& origin) {

@@ -1,7 +1,6 @@
 #include "libdsc/algorithms/diffusion.h"
 #include "libdsc/cli/commands/commands.h"
 #include "libdsc/cli/stages.h"
-#include "libdsc/solve/matrix_memory.h"
 
 namespace dsc::cli {
 namespace {
@@ -11,10 +10,7 @@ Eigen::VectorXd heat_of(const FlatMesh& mesh, const std::vector<VertexId>& sourc
   Timings& timings = run.report.timings;
   DiffusionOptions options;
   options.calculus = calculus_options(run);
-  options.factory = [&](SparseMatrix&& A, const SolverOptions& solver, const Context& context) {
-    const Stopwatch watch(timings.factorize);
-    return make_spd_solver(take(A), solver, context);
-  };
+  options.factory = timed_solvers(run);
   std::optional<HeatDiffusion> diffusion;
   {
     const Stopwatch watch(timings.assemble);

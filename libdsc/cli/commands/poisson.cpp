@@ -5,7 +5,6 @@
 #include "libdsc/cli/smooth_surface.h"
 #include "libdsc/solve/boundary.h"
 #include "libdsc/solve/checkerboard.h"
-#include "libdsc/solve/matrix_memory.h"
 
 #include <cmath>
 
@@ -81,10 +80,7 @@ PoissonAnswer solve(const FlatMesh& mesh, const Conditions& conditions, Eigen::V
   options.calculus = calculus_options(run);
   options.solver.method = SolverMethod::automatic;
   options.solver.direct_limit = kDirectLimitOnce;
-  options.factory = [&](SparseMatrix&& A, const SolverOptions& solver, const Context& context) {
-    const Stopwatch watch(timings.factorize);
-    return make_spd_solver(take(A), solver, context);
-  };
+  options.factory = timed_solvers(run);
   std::optional<PoissonProblem> problem;
   {
     const Stopwatch watch(timings.assemble);
